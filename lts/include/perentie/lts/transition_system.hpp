@@ -1,0 +1,34 @@
+// TransitionSystem: the one interface that exploration needs.
+//
+// Process terms, compiled machines, products and test graphs all satisfy it, so they share the same
+// exploration code. Labels are those of `lts.hpp`; what a state is, is the system's own business.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <vector>
+
+#include "perentie/lts/lts.hpp"
+
+namespace perentie::lts {
+
+template <class S>
+struct Transition {
+  Label label;
+  S target;
+};
+
+/// `initial()` gives the state to start from; `successors(s, out)` appends the transitions of `s` to
+/// the caller's buffer and returns false if they cannot be computed (the system has reported why).
+/// `state_hash(s)` and `==` identify states.
+template <class T>
+concept TransitionSystem = requires(T& system, const typename T::State& state,
+                                    std::vector<Transition<typename T::State>>& out) {
+  typename T::State;
+  requires std::equality_comparable<typename T::State>;
+  { system.initial() } -> std::same_as<typename T::State>;
+  { system.successors(state, out) } -> std::same_as<bool>;
+  { system.state_hash(state) } -> std::convertible_to<std::uint64_t>;
+};
+
+}  // namespace perentie::lts
