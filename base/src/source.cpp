@@ -27,6 +27,10 @@ bool is_utf8_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0
 }  // namespace
 
 std::optional<FileId> SourceMap::add(std::string path, std::string text) {
+  return add_excerpt({path, 1, 1}, std::move(text));
+}
+
+std::optional<FileId> SourceMap::add_excerpt(Position first, std::string text) {
   // Each file owns one position past its end, so that "at the end of the file" is a place in it.
   Offset base = 0;
   if (!files_.empty()) {
@@ -35,7 +39,8 @@ std::optional<FileId> SourceMap::add(std::string path, std::string text) {
   }
   if (text.size() >= std::numeric_limits<Offset>::max() - base) return std::nullopt;
   std::vector<Offset> line_starts = find_line_starts(text);
-  return files_.add(File{std::move(path), std::move(text), base, std::move(line_starts)});
+  return files_.add(File{std::string(first.path), std::move(text), base, std::move(line_starts),
+                         first.line, first.column});
 }
 
 Span SourceMap::span(FileId file) const {
@@ -60,11 +65,11 @@ Position SourceMap::position(Offset offset) const {
   const Offset local = std::min(offset - file.base, static_cast<Offset>(file.text.size()));
   const std::size_t line = line_index(file, local);
   const Offset start = file.line_starts[line];
-  std::uint32_t column = 1;
+  std::uint32_t column = line == 0 ? file.first_column : 1;
   for (Offset i = start; i < local; ++i) {
     if (!is_utf8_continuation(file.text[i])) ++column;
   }
-  return {file.path, static_cast<std::uint32_t>(line + 1), column};
+  return {file.path, static_cast<std::uint32_t>(file.first_line + line), column};
 }
 
 std::string_view SourceMap::text(Span span) const {

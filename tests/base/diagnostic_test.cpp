@@ -27,6 +27,15 @@ TEST(DiagnosticTest, EndOfFileIsAPlace) {
   EXPECT_EQ(render(at({4, 5}), sources), "b.csp:1:1: error: bad thing [X001]\nQ =\n^\n");
 }
 
+TEST(DiagnosticTest, AnExcerptKeepsItsPlaceInTheFile) {
+  SourceMap sources;
+  sources.add("a.csp", "P = STOP\n");
+  sources.add_excerpt({"trace.jsonl", 51, 1001}, "abc\nxyz");
+  EXPECT_EQ(render(at({11, 12}), sources),
+            "trace.jsonl:51:1002: error: bad thing [X001]\nabc\n ^\n");
+  EXPECT_EQ(render(at({15, 16}), sources), "trace.jsonl:52:2: error: bad thing [X001]\nxyz\n ^\n");
+}
+
 TEST(DiagnosticTest, TabsAndUtf8AreOneColumn) {
   SourceMap sources;
   sources.add("a.csp", "\t\"\xE2\x98\x91\" x");
@@ -49,7 +58,8 @@ TEST(DiagnosticTest, KeepsTheFirstErrorsAndCountsTheRest) {
   for (int i = 0; i < 150; ++i) diagnostics.report(example, {0, 1}, "bad thing");
   EXPECT_EQ(diagnostics.all().size(), Diagnostics::max_kept_errors);
   EXPECT_EQ(diagnostics.error_count(), 150U);
-  EXPECT_TRUE(render_all(diagnostics, sources).ends_with("perentie: 50 more errors are not shown\n"));
+  EXPECT_TRUE(
+      render_all(diagnostics, sources).ends_with("perentie: 50 more errors are not shown\n"));
 }
 
 }  // namespace

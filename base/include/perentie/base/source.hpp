@@ -42,6 +42,9 @@ class SourceMap {
  public:
   /// Adds a text under the path that messages name. Nothing if 4 GiB of source would be exceeded.
   std::optional<FileId> add(std::string path, std::string text);
+  /// Adds a part of a text that is too large to keep whole, such as one line of a trace. `first`
+  /// says where in the file the part begins: positions in it are reported as positions in the file.
+  std::optional<FileId> add_excerpt(Position first, std::string text);
 
   std::string_view path(FileId file) const { return files_[file].path; }
   std::string_view text(FileId file) const { return files_[file].text; }
@@ -62,6 +65,8 @@ class SourceMap {
     std::string text;
     Offset base;
     std::vector<Offset> line_starts;  // relative to base
+    std::uint32_t first_line = 1;
+    std::uint32_t first_column = 1;
   };
 
   std::size_t line_index(const File& file, Offset local) const;
