@@ -3,13 +3,43 @@
 #include <algorithm>
 
 #include "perentie/base/check.hpp"
+#include "perentie/lts/memory.hpp"
 
 namespace perentie::lts {
+
+namespace {
+
+using EdgeIterator = std::vector<Edge>::iterator;
+
+/// Sorts a row and moves its duplicates behind the returned end.
+EdgeIterator sort_row(EdgeIterator first, EdgeIterator last) {
+  if (!std::is_sorted(first, last)) std::sort(first, last);
+  return std::unique(first, last);
+}
+
+}  // namespace
+
+Lts::Lts(std::vector<std::uint64_t> rows, std::vector<Edge> edges, State initial,
+         std::shared_ptr<const LabelNames> label_names)
+    : rows_(std::move(rows)),
+      edges_(std::move(edges)),
+      initial_(initial),
+      label_names_(std::move(label_names)) {
+  PERENTIE_CHECK(label_names_->size() >= 2 && name(tau) == tau_name && name(tick) == tick_name,
+                 "the label names do not begin with τ and ✓");
+  PERENTIE_CHECK(initial_.value < state_count(), "the initial state is not a state");
+  for (const Edge& edge : edges_) {
+    PERENTIE_CHECK(edge.target.value < state_count(),
+                   "an edge leads to a state that does not exist");
+    PERENTIE_CHECK(edge.label.value < label_names_->size(), "an edge has a label without a name");
+  }
+}
 
 std::span<const Edge> Lts::edges(State state, Label label) const {
   const std::span<const Edge> all = edges(state);
   const auto by_label = [](const Edge& a, const Edge& b) { return a.label < b.label; };
-  const auto [first, last] = std::equal_range(all.begin(), all.end(), Edge{label, State{0}}, by_label);
+  const auto [first, last] =
+      std::equal_range(all.begin(), all.end(), Edge{label, State{0}}, by_label);
   return {first, last};
 }
 
@@ -34,16 +64,10 @@ void LtsBuilder::add_edge(State source, Label label, State target) {
 }
 
 Lts LtsBuilder::finish(State initial) && {
-  PERENTIE_CHECK(initial.value < state_count_, "the initial state is not a state");
-  Lts lts;
-  lts.initial_ = initial;
-  lts.label_names_ = std::move(label_names_);
-
   // Counting sort by source, then each row on its own.
   std::vector<std::uint64_t> ends(state_count_ + 1, 0);
   for (const SourcedEdge& e : edges_) {
-    PERENTIE_CHECK(e.source.value < state_count_ && e.edge.target.value < state_count_,
-                   "an edge names a state that does not exist");
+    PERENTIE_CHECK(e.source.value < state_count_, "an edge leaves a state that does not exist");
     ++ends[e.source.value + 1];
   }
   for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
@@ -53,19 +77,35 @@ Lts LtsBuilder::finish(State initial) && {
   edges_.clear();
   edges_.shrink_to_fit();
 
-  lts.rows_.reserve(state_count_ + 1);
-  lts.rows_.push_back(0);
   auto write = sorted.begin();
+  std::uint64_t row_begin = 0;
   for (std::uint32_t s = 0; s < state_count_; ++s) {
-    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(ends[s]);
+    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(row_begin);
     const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(ends[s + 1]);
-    std::sort(first, last);
-    write = std::copy(first, std::unique(first, last), write);
-    lts.rows_.push_back(static_cast<std::uint64_t>(write - sorted.begin()));
+    row_begin = ends[s + 1];
+    write = std::move(first, sort_row(first, last), write);
+    ends[s + 1] = static_cast<std::uint64_t>(write - sorted.begin());
   }
   sorted.erase(write, sorted.end());
-  lts.edges_ = std::move(sorted);
-  return lts;
+  return Lts(std::move(ends), std::move(sorted), initial, std::move(label_names_));
+}
+
+void LtsRowBuilder::end_row() {
+  const auto first = edges_.begin() + static_cast<std::ptrdiff_t>(rows_.back());
+  edges_.erase(sort_row(first, edges_.end()), edges_.end());
+  rows_.push_back(edges_.size());
+}
+
+std::uint64_t LtsRowBuilder::peak_bytes(std::size_t edges) const {
+  return lts::peak_bytes(rows_, 1) + lts::peak_bytes(edges_, edges);
+}
+
+Lts LtsRowBuilder::finish(State initial, std::size_t state_count,
+                          std::shared_ptr<const LabelNames> names) && {
+  PERENTIE_CHECK(row_count() <= state_count, "a row belongs to a state that does not exist");
+  drop_row();
+  rows_.resize(state_count + 1, rows_.back());
+  return Lts(std::move(rows_), std::move(edges_), initial, std::move(names));
 }
 
 }  // namespace perentie::lts

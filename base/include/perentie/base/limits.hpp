@@ -23,9 +23,9 @@ struct LimitReached {
 std::string describe(const LimitReached& reached);
 
 struct Limits {
-  std::optional<std::uint64_t> max_states;
-  std::optional<std::uint64_t> max_memory_bytes;
-  std::optional<std::chrono::milliseconds> timeout;
+  std::optional<std::uint64_t> max_states = {};
+  std::optional<std::uint64_t> max_memory_bytes = {};
+  std::optional<std::chrono::milliseconds> timeout = {};
   const std::atomic<bool>* cancelled = nullptr;  ///< set from a signal handler or another thread
 };
 

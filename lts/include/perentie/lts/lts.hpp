@@ -1,8 +1,9 @@
 // Labelled transition systems: the explicit, immutable graph that every analysis reads.
 //
-// States and labels are dense ids. Label 0 is τ, label 1 is ✓, events follow. The edges of a state are
-// one run of a single array, sorted by (label, target) and free of duplicates, so the successors under
-// one label are a sub-run. An `Lts` is made by an `LtsBuilder` and never changes afterwards.
+// States and labels are dense ids. Label 0 is τ, label 1 is ✓, events follow. The edges of a state
+// are one run of a single array, sorted by (label, target) and free of duplicates, so the
+// successors under one label are a sub-run. An `Lts` is made by a builder and never changes
+// afterwards.
 #pragma once
 
 #include <compare>
@@ -63,7 +64,9 @@ class Lts {
 
  private:
   friend class LtsBuilder;
-  Lts() = default;
+  friend class LtsRowBuilder;
+  Lts(std::vector<std::uint64_t> rows, std::vector<Edge> edges, State initial,
+      std::shared_ptr<const LabelNames> label_names);
 
   std::vector<std::uint64_t> rows_;  // state_count() + 1 offsets into edges_
   std::vector<Edge> edges_;
@@ -93,6 +96,33 @@ class LtsBuilder {
   std::vector<SourcedEdge> edges_;
   std::uint32_t state_count_ = 0;
   std::shared_ptr<const LabelNames> label_names_;
+};
+
+/// Takes the rows of states 0, 1, 2, ... one after the other, so that nothing but each row is
+/// sorted: the builder of steps that finish one state before the next.
+class LtsRowBuilder {
+ public:
+  /// Adds an edge to the row in hand.
+  void add_edge(Label label, State target) { edges_.push_back({label, target}); }
+  /// Sorts the row in hand, removes its duplicate edges, and begins the row of the next state.
+  void end_row();
+  /// Drops the edges of the row in hand.
+  void drop_row() { edges_.resize(rows_.back()); }
+
+  /// The number of finished rows.
+  std::size_t row_count() const { return rows_.size() - 1; }
+  /// The edges in finished rows, and in the row in hand.
+  std::size_t edge_count() const { return edges_.size(); }
+  /// What the builder will hold at most while it takes one more row of `edges` edges.
+  std::uint64_t peak_bytes(std::size_t edges) const;
+
+  /// Hands the graph over. States beyond the finished rows have no edges. `initial` and all targets
+  /// must be below `state_count`.
+  Lts finish(State initial, std::size_t state_count, std::shared_ptr<const LabelNames> names) &&;
+
+ private:
+  std::vector<std::uint64_t> rows_{0};
+  std::vector<Edge> edges_;
 };
 
 }  // namespace perentie::lts

@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "perentie/lts/lts.hpp"
@@ -18,9 +19,11 @@ struct Transition {
   S target;
 };
 
-/// `initial()` gives the state to start from; `successors(s, out)` appends the transitions of `s` to
-/// the caller's buffer and returns false if they cannot be computed (the system has reported why).
-/// `state_hash(s)` and `==` identify states.
+/// `initial()` gives the state to start from; `successors(s, out)` appends the transitions of `s`
+/// to the caller's buffer and returns false if they cannot be computed (the system has reported
+/// why). `state_hash(s)` and `==` identify states. `label_names()` is asked for when exploration is
+/// over, so a system may create labels while it computes successors. A system whose own tables grow
+/// may also have `memory_bytes()`, which then counts towards the limit.
 template <class T>
 concept TransitionSystem = requires(T& system, const typename T::State& state,
                                     std::vector<Transition<typename T::State>>& out) {
@@ -29,6 +32,7 @@ concept TransitionSystem = requires(T& system, const typename T::State& state,
   { system.initial() } -> std::same_as<typename T::State>;
   { system.successors(state, out) } -> std::same_as<bool>;
   { system.state_hash(state) } -> std::convertible_to<std::uint64_t>;
+  { system.label_names() } -> std::convertible_to<std::shared_ptr<const LabelNames>>;
 };
 
 }  // namespace perentie::lts

@@ -1,0 +1,36 @@
+// What growing containers will hold at the peak of their growth, so that a memory budget is kept
+// before the memory is taken, not noticed after.
+//
+// A vector that outgrows its block holds the old block and the used part of the new one at the same
+// time; a hash table that doubles holds both tables.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "perentie/base/unique_index.hpp"
+
+namespace perentie::lts {
+
+/// The bytes in use, at the peak, while `more` elements are appended.
+template <class T>
+std::uint64_t peak_bytes(const std::vector<T>& vector, std::size_t more) {
+  const std::size_t size = vector.size() + more;
+  const std::size_t moved = size > vector.capacity() ? vector.size() : 0;
+  return (static_cast<std::uint64_t>(size) + moved) * sizeof(T);
+}
+
+/// The bytes in use, at the peak, while `more` elements are inserted.
+inline std::uint64_t peak_bytes(const base::UniqueIndex& index, std::size_t more) {
+  std::uint64_t bytes = index.memory_bytes();
+  std::uint64_t old_bytes = 0;
+  for (const std::uint64_t needed = 2 * sizeof(std::uint32_t) * (index.size() + more);
+       bytes < needed;) {
+    old_bytes = bytes;
+    bytes = bytes == 0 ? needed : bytes * 2;
+  }
+  return bytes + old_bytes;
+}
+
+}  // namespace perentie::lts
