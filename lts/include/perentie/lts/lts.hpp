@@ -52,6 +52,11 @@ class Lts {
   }
   /// The sub-run of `edges(state)` with one label.
   std::span<const Edge> edges(State state, Label label) const;
+  /// Whether the state has no τ.
+  bool is_stable(State state) const {
+    const std::span<const Edge> row = edges(state);
+    return row.empty() || row.front().label != tau;
+  }
 
   const LabelNames& label_names() const { return *label_names_; }
   std::shared_ptr<const LabelNames> shared_label_names() const { return label_names_; }

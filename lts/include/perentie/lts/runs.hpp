@@ -1,0 +1,80 @@
+// Runs: many short sequences in one block, by number; UniqueRuns: the same, each sequence once.
+//
+// Sets of states and sets of labels are such sequences, sorted. Appending copies the elements, and
+// the span of a run is not valid after the next one has been added.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "perentie/base/hash.hpp"
+#include "perentie/base/unique_index.hpp"
+#include "perentie/lts/memory.hpp"
+
+namespace perentie::lts {
+
+template <class T>
+class Runs {
+ public:
+  void add(std::span<const T> run) {
+    items_.insert(items_.end(), run.begin(), run.end());
+    ends_.push_back(items_.size());
+  }
+
+  std::span<const T> operator[](std::size_t i) const {
+    const std::uint64_t begin = i == 0 ? 0 : ends_[i - 1];
+    return std::span<const T>(items_).subspan(begin, ends_[i] - begin);
+  }
+
+  std::size_t size() const { return ends_.size(); }
+  /// The memory at most in use while one more run of `length` elements is added.
+  std::uint64_t peak_bytes(std::size_t length) const {
+    return lts::peak_bytes(ends_, 1) + lts::peak_bytes(items_, length);
+  }
+
+ private:
+  std::vector<std::uint64_t> ends_;
+  std::vector<T> items_;
+};
+
+/// `T` is a `base::Id`. Runs are numbered by `IdT` in order of first appearance.
+template <class IdT, class T>
+class UniqueRuns {
+ public:
+  /// The number of a run, known or new; `none` if it is new and there are `max` runs already, and
+  /// then no further run may be added.
+  IdT add(std::span<const T> run, std::uint64_t max = IdT::none_value) {
+    const auto result = index_.find_or_insert(
+        hash(run), static_cast<std::uint32_t>(runs_.size()),
+        [&](std::uint32_t other) { return std::ranges::equal(runs_[other], run); },
+        [&](std::uint32_t other) { return hash(runs_[other]); });
+    if (result.inserted) {
+      if (runs_.size() >= max) return IdT{};
+      runs_.add(run);
+    }
+    return IdT{result.index};
+  }
+
+  std::span<const T> operator[](IdT id) const { return runs_[id.value]; }
+  std::size_t size() const { return runs_.size(); }
+  std::uint64_t peak_bytes(std::size_t length) const {
+    return runs_.peak_bytes(length) + lts::peak_bytes(index_, 1);
+  }
+  Runs<T> take() && { return std::move(runs_); }
+
+ private:
+  static std::uint64_t hash(std::span<const T> run) {
+    std::uint64_t hash = base::hash_mix(0, run.size());
+    for (const T item : run) hash = base::hash_mix(hash, item.value);
+    return hash;
+  }
+
+  Runs<T> runs_;
+  base::UniqueIndex index_;
+};
+
+}  // namespace perentie::lts

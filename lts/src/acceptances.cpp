@@ -1,0 +1,52 @@
+#include "perentie/lts/acceptances.hpp"
+
+#include <algorithm>
+
+namespace perentie::lts {
+
+namespace {
+
+/// Keeps those elements of `ids` whose set includes no other's.
+void keep_minimal(std::vector<AcceptanceId>& ids, const UniqueRuns<AcceptanceId, Label>& sets) {
+  std::ranges::stable_sort(ids, {}, [&](AcceptanceId id) { return sets[id].size(); });
+  auto kept_end = ids.begin();
+  for (const AcceptanceId id : ids) {
+    const bool includes_another = std::any_of(ids.begin(), kept_end, [&](AcceptanceId smaller) {
+      return std::ranges::includes(sets[id], sets[smaller]);
+    });
+    if (!includes_another) *kept_end++ = id;
+  }
+  ids.erase(kept_end, ids.end());
+}
+
+}  // namespace
+
+AcceptanceId AcceptanceBuilder::acceptance(State stable) {
+  AcceptanceId& id = initials_[stable.value];
+  if (id.is_none()) {
+    labels_.clear();
+    for (const Edge& edge : lts_.edges(stable)) {
+      if (labels_.empty() || labels_.back() != edge.label) labels_.push_back(edge.label);
+    }
+    id = sets_.add(labels_);
+  }
+  return id;
+}
+
+void AcceptanceBuilder::add(std::span<const State> states) {
+  found_.clear();
+  for (const State state : states) {
+    if (lts_.is_stable(state)) found_.push_back(acceptance(state));
+  }
+  std::ranges::sort(found_);
+  found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+  keep_minimal(found_, sets_);
+  std::ranges::sort(found_);
+  minimal_.add(found_);
+}
+
+Acceptances AcceptanceBuilder::finish() && {
+  return {std::move(sets_).take(), std::move(minimal_)};
+}
+
+}  // namespace perentie::lts
