@@ -1,0 +1,204 @@
+#include "yaml_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "perentie/base/text.hpp"
+#include "perentie/monitor/diagnostic_codes.hpp"
+
+namespace perentie::monitor {
+namespace {
+
+std::string_view kind_of(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar:
+      return "a text";
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Map:
+      return "a map";
+    default:
+      return "empty";
+  }
+}
+
+template <class Number>
+std::optional<Number> parse_number(const std::string& text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::string list_words(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    text += fmt::format("`{}`", words[i]);
+  }
+  return text;
+}
+
+base::Span YamlFile::span_of(const YAML::Mark& mark, std::size_t length) const {
+  const base::Span file = sources_->span(file_);
+  const std::string_view text = sources_->text(file_);
+  std::size_t at = 0;
+  for (int line = 0; line < mark.line && at < text.size(); ++line) {
+    at = std::min(text.find('\n', at), text.size() - 1) + 1;
+  }
+  at = std::min(at + static_cast<std::size_t>(std::max(mark.column, 0)), text.size());
+  const std::size_t line_end = std::min(text.find('\n', at), text.size());
+  const std::size_t end = std::min(at + length, line_end);
+  return {file.begin + static_cast<base::Offset>(at), file.begin + static_cast<base::Offset>(end)};
+}
+
+base::Span YamlFile::span(const YAML::Node& node) const {
+  std::size_t length = 1;
+  if (node.IsScalar()) {
+    const base::Span start = span_of(node.Mark(), 1);
+    const std::string_view first = sources_->text(start);
+    length = node.Scalar().size() + (first == "\"" || first == "'" ? 2 : 0);
+  }
+  return span_of(node.Mark(), std::max<std::size_t>(length, 1));
+}
+
+base::Diagnostic& YamlFile::report(const base::DiagnosticCode& code, const YAML::Node& at,
+                                   std::string message) {
+  return diagnostics_->report(code, span(at), std::move(message));
+}
+
+std::optional<YAML::Node> YamlFile::parse() {
+  std::vector<YAML::Node> documents;
+  try {
+    documents = YAML::LoadAll(std::string(sources_->text(file_)));
+  } catch (const YAML::Exception& error) {
+    diagnostics_->report(codes::malformed_yaml, span_of(error.mark, 1),
+                         fmt::format("this is not YAML: {}", error.msg));
+    return std::nullopt;
+  }
+  if (documents.empty()) documents.emplace_back();
+  if (documents.size() > 1) {
+    report(codes::malformed_yaml, documents[1], "the file holds more than one YAML document");
+    return std::nullopt;
+  }
+  if (!documents[0].IsMap()) {
+    diagnostics_->report(codes::wrong_type, span_of(documents[0].Mark(), 1),
+                         fmt::format("the file must be a map of keys to values, but it is {}",
+                                     kind_of(documents[0])));
+    return std::nullopt;
+  }
+  return documents[0];
+}
+
+void YamlFile::check_keys(const YAML::Node& map, std::string_view what,
+                          std::initializer_list<std::string_view> known) {
+  std::set<std::string> seen;
+  for (const auto& entry : map) {
+    if (!entry.first.IsScalar()) {
+      report(codes::wrong_type, entry.first, fmt::format("a key of {} must be a text", what));
+      continue;
+    }
+    const std::string& key = entry.first.Scalar();
+    if (!seen.insert(key).second) {
+      report(codes::duplicate_key, entry.first, fmt::format("the key `{}` is given twice", key));
+    }
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    base::Diagnostic& warning =
+        report(codes::unknown_key, entry.first,
+               fmt::format("the key `{}` means nothing in {} and is ignored", key, what));
+    const std::vector<std::string_view> candidates(known);
+    const std::vector<std::string_view> near = base::nearest_words(key, candidates);
+    if (!near.empty()) {
+      warning.notes.push_back({std::nullopt, fmt::format("did you mean {}?", list_words(near))});
+    }
+  }
+}
+
+std::optional<YAML::Node> YamlFile::required(const YAML::Node& map, std::string_view what,
+                                             const std::string& key) {
+  const YAML::Node value = map[key];
+  if (value.IsDefined()) return value;
+  report(codes::missing_key, map, fmt::format("{} must have the key `{}`", what, key));
+  return std::nullopt;
+}
+
+std::nullopt_t YamlFile::refuse(const YAML::Node& node, std::string_view what,
+                                std::string_view expected) {
+  std::string found = fmt::format("it is {}", kind_of(node));
+  if (node.IsScalar()) found = fmt::format("it is `{}`", node.Scalar());
+  report(codes::wrong_type, node, fmt::format("{} must be {}, but {}", what, expected, found));
+  return std::nullopt;
+}
+
+std::optional<std::string> YamlFile::text(const YAML::Node& node, std::string_view what) {
+  if (!node.IsScalar()) return refuse(node, what, "a text");
+  return node.Scalar();
+}
+
+std::optional<double> YamlFile::number(const YAML::Node& node, std::string_view what) {
+  if (!node.IsScalar()) return refuse(node, what, "a number");
+  const std::optional<double> value = parse_number<double>(node.Scalar());
+  if (!value) return refuse(node, what, "a number");
+  return value;
+}
+
+std::optional<std::uint64_t> YamlFile::natural(const YAML::Node& node, std::string_view what) {
+  if (!node.IsScalar()) return refuse(node, what, "a whole number");
+  const std::optional<std::uint64_t> value = parse_number<std::uint64_t>(node.Scalar());
+  if (!value) return refuse(node, what, "a whole number, 0 or more");
+  return value;
+}
+
+std::optional<bool> YamlFile::boolean(const YAML::Node& node, std::string_view what) {
+  bool value = false;
+  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) {
+    return refuse(node, what, "`true` or `false`");
+  }
+  return value;
+}
+
+std::optional<std::size_t> YamlFile::one_of(const YAML::Node& node, std::string_view what,
+                                            std::initializer_list<std::string_view> words) {
+  const std::optional<std::string> word = text(node, what);
+  if (!word) return std::nullopt;
+  const auto found = std::find(words.begin(), words.end(), *word);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  report(codes::bad_value, node,
+         fmt::format("{} must be {}, but it is `{}`", what, list_words(words), *word));
+  return std::nullopt;
+}
+
+std::optional<std::vector<YAML::Node>> YamlFile::list_of_texts(const YAML::Node& node,
+                                                               std::string_view what) {
+  if (node.IsScalar()) return std::vector<YAML::Node>{node};
+  if (!node.IsSequence()) return refuse(node, what, "a list");
+  std::vector<YAML::Node> items;
+  bool good = true;
+  for (const YAML::Node& item : node) {
+    if (item.IsScalar()) {
+      items.push_back(item);
+    } else {
+      good = false;
+      refuse(item, fmt::format("an entry of {}", what), "a text");
+    }
+  }
+  if (!good) return std::nullopt;
+  return items;
+}
+
+bool YamlFile::is_map(const YAML::Node& node, std::string_view what) {
+  if (!node.IsMap()) refuse(node, what, "a map");
+  return node.IsMap();
+}
+
+bool YamlFile::is_list(const YAML::Node& node, std::string_view what) {
+  if (!node.IsSequence()) refuse(node, what, "a list");
+  return node.IsSequence();
+}
+
+}  // namespace perentie::monitor
