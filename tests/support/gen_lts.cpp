@@ -9,7 +9,7 @@ namespace perentie::test {
 namespace {
 
 using RawEdge = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // source, label, target
-using RawLts = std::pair<std::uint32_t, std::vector<RawEdge>>;            // states, edges
+using RawLts = std::pair<std::uint32_t, std::vector<RawEdge>>;            // last state, edges
 
 std::vector<lts::Label> weighted_labels(const LtsShape& shape) {
   std::vector<lts::Label> labels;
@@ -23,7 +23,7 @@ lts::Lts build(const LtsShape& shape, const std::vector<lts::Label>& labels, con
   lts::LabelNames names{std::string(lts::tau_name), std::string(lts::tick_name)};
   names.insert(names.end(), shape.events.begin(), shape.events.end());
   lts::LtsBuilder builder(std::make_shared<const lts::LabelNames>(std::move(names)));
-  const std::uint32_t states = raw.first;
+  const std::uint32_t states = raw.first + 1;
   builder.add_states(states);
   for (const auto& [source, label, target] : raw.second) {
     builder.add_edge(lts::State{source % states}, labels[label], lts::State{target % states});
@@ -34,17 +34,21 @@ lts::Lts build(const LtsShape& shape, const std::vector<lts::Label>& labels, con
 }  // namespace
 
 rc::Gen<lts::Lts> arbitrary_lts(LtsShape shape) {
+  // Without `resize` small sizes would draw only small numbers: state 0 and the first label.
+  const auto below = [](std::uint32_t end) {
+    return rc::gen::resize(rc::kNominalSize, rc::gen::inRange<std::uint32_t>(0, end));
+  };
   const std::vector<lts::Label> labels = weighted_labels(shape);
-  const auto state = rc::gen::inRange<std::uint32_t>(0, shape.max_states);
-  const auto label = rc::gen::inRange<std::uint32_t>(0, static_cast<std::uint32_t>(labels.size()));
-  const auto edge_count = rc::gen::inRange<std::size_t>(0, 2 * shape.max_states + 1);
-  const auto edges = rc::gen::mapcat(edge_count, [=](std::size_t count) {
+  const auto state = below(shape.max_states);
+  const auto label = below(static_cast<std::uint32_t>(labels.size()));
+  const auto edges = rc::gen::mapcat(below(2 * shape.max_states + 1), [=](std::uint32_t count) {
     return rc::gen::container<std::vector<RawEdge>>(count, rc::gen::tuple(state, label, state));
   });
-  const auto raw = rc::gen::pair(rc::gen::inRange<std::uint32_t>(1, shape.max_states + 1), edges);
-  return rc::gen::map(raw, [shape = std::move(shape), labels](const RawLts& drawn) {
-    return build(shape, labels, drawn);
-  });
+  const auto last_state = below(shape.max_states);
+  return rc::gen::map(rc::gen::pair(last_state, edges),
+                      [shape = std::move(shape), labels](const RawLts& drawn) {
+                        return build(shape, labels, drawn);
+                      });
 }
 
 }  // namespace perentie::test
