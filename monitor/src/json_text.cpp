@@ -155,8 +155,13 @@ std::optional<JsonFault> find_json_fault(std::string_view text) {
   JsonFault fault;
   fault.cut_off = finder.stopped_after > plain.size();
   fault.end = std::min(finder.stopped_after, text.size());
-  fault.begin = fault.end - std::min(finder.token.size(), fault.end);
-  if (fault.cut_off) fault.begin = fault.end;
+  fault.begin = fault.end;
+  if (fault.cut_off || fault.end == 0) return fault;
+  // The parser stops at the first character that cannot stand there, or behind a string that
+  // cannot; what it calls the last token may begin earlier than that.
+  const bool is_string = finder.token.size() > 1 && finder.token.front() == '"' &&
+                         finder.token.back() == '"' && finder.token.size() <= fault.end;
+  fault.begin -= is_string ? finder.token.size() : 1;
   return fault;
 }
 

@@ -57,7 +57,19 @@ base::Span YamlFile::span_of(const YAML::Mark& mark, std::size_t length) const {
   return {file.begin + static_cast<base::Offset>(at), file.begin + static_cast<base::Offset>(end)};
 }
 
+// A value that is not there is marked where the next thing begins; its place is behind the key.
+base::Span YamlFile::span_of_nothing(base::Span mark) const {
+  const base::Span file = sources_->span(file_);
+  const std::string_view text = sources_->text(file_);
+  const std::string_view rest = text.substr(mark.begin - file.begin);
+  if (rest.starts_with('~') || rest.starts_with("null")) return mark;
+  const std::size_t before = text.substr(0, mark.begin - file.begin).find_last_not_of(" \t\r\n");
+  const std::size_t at = before == std::string_view::npos ? 0 : before + 1;
+  return {file.begin + static_cast<base::Offset>(at), file.begin + static_cast<base::Offset>(at)};
+}
+
 base::Span YamlFile::span(const YAML::Node& node) const {
+  if (node.IsNull()) return span_of_nothing(span_of(node.Mark(), 1));
   std::size_t length = 1;
   if (node.IsScalar()) {
     const base::Span start = span_of(node.Mark(), 1);

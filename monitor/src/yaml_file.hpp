@@ -52,6 +52,7 @@ class YamlFile {
 
  private:
   base::Span span_of(const YAML::Mark& mark, std::size_t length) const;
+  base::Span span_of_nothing(base::Span mark) const;
   std::nullopt_t refuse(const YAML::Node& node, std::string_view what, std::string_view expected);
 
   base::FileId file_;
