@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace perentie::base {
@@ -33,6 +34,17 @@ class UniqueIndex {
     slots_[slot] = next_index;
     ++size_;
     return {next_index, true};
+  }
+
+  /// Begins to fetch the place of a hash into the cache, for a look-up that comes soon.
+  void prefetch(std::uint64_t hash) const {
+    if (!slots_.empty()) __builtin_prefetch(&slots_[hash & mask()]);
+  }
+  /// The index at the place of a hash, which a look-up will compare first; nothing: the place is
+  /// free.
+  std::optional<std::uint32_t> candidate(std::uint64_t hash) const {
+    if (slots_.empty() || slots_[hash & mask()] == empty_slot) return std::nullopt;
+    return slots_[hash & mask()];
   }
 
   std::size_t size() const { return size_; }

@@ -52,7 +52,9 @@ struct Exploration {
   /// of transitions is one more (CSPM reference 6.3.2).
   std::uint64_t transitions_fired = 0;
   std::optional<base::LimitReached> limit;  ///< the budget that ran out, if one did
-  bool failed = false;  ///< some successors could not be computed; the system has reported why
+  /// Some successors could not be computed; the system has reported why. A limit may have come
+  /// first.
+  bool failed = false;
 
   bool complete() const { return expanded == states.size(); }
 };
@@ -66,10 +68,9 @@ class VisitedStates {
   VisitedStates(System& system, std::uint64_t max_states)
       : system_(system), max_states_(std::min<std::uint64_t>(max_states, State::none_value)) {}
 
-  /// The number of a state, known or new; nothing if it is new and one too many, and then no
-  /// further state may be added.
-  std::optional<State> add(S&& state) {
-    const std::uint64_t hash = system_.state_hash(state);
+  /// The number of a state with this hash, known or new; nothing if it is new and one too many, and
+  /// then no further state may be added.
+  std::optional<State> add(S&& state, std::uint64_t hash) {
     const auto [number, inserted] = index_.find_or_insert(
         hash, static_cast<std::uint32_t>(states_.size()),
         [&](std::uint32_t other) { return states_[other] == state; },
@@ -79,6 +80,17 @@ class VisitedStates {
       states_.push_back(std::move(state));
     }
     return State{number};
+  }
+
+  std::optional<State> add(S&& state) {
+    const std::uint64_t hash = system_.state_hash(state);
+    return add(std::move(state), hash);
+  }
+  /// Two steps that may precede `add` by some time and make it cheaper: the table waits for memory,
+  /// then the states do.
+  void prefetch_slot(std::uint64_t hash) const { index_.prefetch(hash); }
+  void prefetch_state(std::uint64_t hash) const {
+    if (const auto number = index_.candidate(hash)) __builtin_prefetch(&states_[*number]);
   }
 
   const S& operator[](std::size_t number) const { return states_[number]; }
@@ -110,38 +122,75 @@ class Explorer {
 
   Exploration<S> run() && {
     visited_.add(system_.initial());
-    while (expanded_ < visited_.size() && expand_next()) ++expanded_;
+    while (rows_.row_count() < visited_.size() && expand_block()) {
+    }
+    const std::size_t expanded = rows_.row_count();
     Lts lts = std::move(rows_).finish(State{0}, visited_.size(), system_.label_names());
-    return {std::move(lts), std::move(visited_).take(), expanded_, fired_, limit_, failed_};
+    return {std::move(lts), std::move(visited_).take(), expanded, fired_, limit_, failed_};
   }
 
  private:
-  /// Computes the row of the first state without one. False if exploration must end before it.
-  bool expand_next() {
-    if (expanded_ == ply_end_) {
+  /// So many states are expanded together that the look-ups of their successors can wait for memory
+  /// at the same time. The result does not depend on it.
+  static constexpr std::size_t block_size = 16;
+
+  /// Computes the rows of the next few states. False if exploration ends with them.
+  bool expand_block() {
+    compute_successors();
+    if (const auto reached = watch_.budget().check_memory(peak_bytes(successors_.size()))) {
+      limit_ = reached;
+      return false;
+    }
+    hashes_.clear();
+    for (const Transition<S>& transition : successors_) {
+      hashes_.push_back(system_.state_hash(transition.target));
+      visited_.prefetch_slot(hashes_.back());
+    }
+    for (const std::uint64_t hash : hashes_) visited_.prefetch_state(hash);
+    std::size_t begin = 0;
+    for (const std::size_t end : row_ends_) {
+      if (!add_row(begin, end)) return false;
+      begin = end;
+    }
+    return !limit_ && !failed_;
+  }
+
+  /// Computes the successors of the next few states, up to the first that a limit or a failure
+  /// excludes.
+  void compute_successors() {
+    successors_.clear();
+    row_ends_.clear();
+    const std::size_t first = rows_.row_count();
+    const std::size_t last = std::min(visited_.size(), first + block_size);
+    for (std::size_t s = first; s < last; ++s) {
+      if (watch_.due()) {
+        limit_ = watch_.look();
+        if (limit_) return;
+        report();
+      }
+      failed_ = !system_.successors(visited_[s], successors_);
+      if (failed_) return;
+      row_ends_.push_back(successors_.size());
+    }
+  }
+
+  /// Adds the row of the next state, whose successors are [begin, end). False if there are too many
+  /// states.
+  bool add_row(std::size_t begin, std::size_t end) {
+    if (rows_.row_count() == ply_end_) {
       ply_end_ = visited_.size();
       ++ply_;
     }
-    if (watch_.due()) {
-      limit_ = watch_.look();
-      if (limit_) return false;
-      report();
-    }
-    successors_.clear();
-    failed_ = !system_.successors(visited_[expanded_], successors_);
-    if (failed_) return false;
-    limit_ = watch_.budget().check_memory(peak_bytes(successors_.size()));
-    if (limit_) return false;
-    for (Transition<S>& transition : successors_) {
-      const std::optional<State> target = visited_.add(std::move(transition.target));
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto target = visited_.add(std::move(successors_[i].target), hashes_[i]);
       if (!target) {
         limit_ = base::LimitReached{base::LimitKind::states, visited_.max_states()};
         return false;
       }
-      rows_.add_edge(transition.label, *target);
+      rows_.add_edge(successors_[i].label, *target);
     }
     rows_.end_row();
-    fired_ += successors_.size();
+    fired_ += end - begin;
     return true;
   }
 
@@ -151,7 +200,7 @@ class Explorer {
     if (!options_.progress || now - last_report_ < seconds_between_reports) return;
     last_report_ = now;
     options_.progress(
-        {visited_.size(), fired_, ply_, visited_.size() - expanded_, peak_bytes(0), now});
+        {visited_.size(), fired_, ply_, visited_.size() - rows_.row_count(), peak_bytes(0), now});
   }
 
   std::uint64_t peak_bytes(std::size_t more) const {
@@ -165,8 +214,9 @@ class Explorer {
   Watch watch_;
   VisitedStates<System> visited_;
   LtsRowBuilder rows_;
-  std::vector<Transition<S>> successors_;  // of the state in work
-  std::size_t expanded_ = 0;
+  std::vector<Transition<S>> successors_;  // of the states in work
+  std::vector<std::size_t> row_ends_;      // where the successors of each end
+  std::vector<std::uint64_t> hashes_;      // of the successors
   std::uint64_t fired_ = 0;
   std::size_t ply_end_ = 1;
   std::uint64_t ply_ = 0;

@@ -1,0 +1,207 @@
+// Throughput of the lts library: exploration, normal form, divergence, determinism, .aut files.
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+#include <memory>
+#include <ostream>
+#include <random>
+#include <sstream>
+#include <streambuf>
+#include <string>
+#include <vector>
+
+#include "perentie/base/hash.hpp"
+#include "perentie/lts/aut.hpp"
+#include "perentie/lts/determinism.hpp"
+#include "perentie/lts/divergence.hpp"
+#include "perentie/lts/explore.hpp"
+#include "perentie/lts/json.hpp"
+#include "perentie/lts/normalise.hpp"
+
+namespace {
+
+namespace lts = perentie::lts;
+using lts::Label;
+using lts::State;
+
+std::shared_ptr<const lts::LabelNames> names(std::uint32_t events) {
+  lts::LabelNames result{std::string(lts::tau_name), std::string(lts::tick_name)};
+  for (std::uint32_t i = 0; i < events; ++i) result.push_back("event." + std::to_string(i));
+  return std::make_shared<const lts::LabelNames>(std::move(result));
+}
+
+/// Rings of six states, four bits each, that turn independently: 6^rings states, `rings`
+/// transitions each. About as many of both as the dining philosophers of the same number.
+struct Rings {
+  using State = std::uint64_t;
+
+  std::uint32_t rings;
+
+  State initial() const { return 0; }
+  bool successors(State s, std::vector<lts::Transition<State>>& out) const {
+    for (std::uint32_t i = 0; i < rings; ++i) {
+      const std::uint64_t place = (s >> (4 * i)) & 15U;
+      const std::uint64_t next = place == 5 ? 0 : place + 1;
+      out.push_back({Label{2 + i}, s + ((next - place) << (4 * i))});
+    }
+    return true;
+  }
+  std::uint64_t state_hash(State s) const { return perentie::base::hash_mix(0, s); }
+  std::shared_ptr<const lts::LabelNames> label_names() const { return names(rings); }
+};
+
+void BM_Explore(benchmark::State& state) {
+  Rings system{static_cast<std::uint32_t>(state.range(0))};
+  double states = 0;
+  double transitions = 0;
+  for (auto _ : state) {
+    const auto result = lts::explore(system);
+    states += static_cast<double>(result.states.size());
+    transitions += static_cast<double>(result.transitions_fired);
+  }
+  state.counters["states/s"] = benchmark::Counter(states, benchmark::Counter::kIsRate);
+  state.counters["transitions/s"] = benchmark::Counter(transitions, benchmark::Counter::kIsRate);
+}
+BENCHMARK(BM_Explore)->Arg(7)->Arg(8)->Unit(benchmark::kMillisecond);
+
+/// The n-th event from the end is the first: n + 1 states, 2^n nodes.
+lts::Lts exponential(std::uint32_t n) {
+  lts::LtsRowBuilder rows;
+  for (const std::uint32_t event : {2U, 3U}) rows.add_edge(Label{event}, State{0});
+  rows.add_edge(Label{2}, State{1});
+  rows.end_row();
+  for (std::uint32_t s = 1; s < n; ++s) {
+    for (const std::uint32_t event : {2U, 3U}) rows.add_edge(Label{event}, State{s + 1});
+    rows.end_row();
+  }
+  return std::move(rows).finish(State{0}, n + 1, names(2));
+}
+
+void BM_NormaliseExponential(benchmark::State& state) {
+  const lts::Lts nfa = exponential(static_cast<std::uint32_t>(state.range(0)));
+  double nodes = 0;
+  for (auto _ : state) {
+    nodes +=
+        static_cast<double>(lts::normalise(nfa, {.limits = {}, .acceptances = state.range(1) != 0})
+                                .normal.lts.state_count());
+  }
+  state.counters["nodes/s"] = benchmark::Counter(nodes, benchmark::Counter::kIsRate);
+}
+BENCHMARK(BM_NormaliseExponential)
+    ->ArgNames({"n", "acceptances"})
+    ->Args({16, 0})
+    ->Args({20, 0})
+    ->Args({20, 1})
+    ->Unit(benchmark::kMillisecond);
+
+/// A random graph in which every state has `degree` edges, `tau_percent` of them τ.
+lts::Lts random_lts(std::uint32_t states, std::uint32_t degree, std::uint32_t tau_percent) {
+  std::mt19937 random(1);
+  lts::LtsRowBuilder rows;
+  for (std::uint32_t s = 0; s < states; ++s) {
+    for (std::uint32_t i = 0; i < degree; ++i) {
+      const Label label = random() % 100 < tau_percent
+                              ? lts::tau
+                              : Label{2 + static_cast<std::uint32_t>(random() % 10)};
+      rows.add_edge(label, State{static_cast<std::uint32_t>(random() % states)});
+    }
+    rows.end_row();
+  }
+  return std::move(rows).finish(State{0}, states, names(10));
+}
+
+void count_edges(benchmark::State& state, const lts::Lts& graph) {
+  state.counters["edges/s"] = benchmark::Counter(static_cast<double>(graph.edge_count()),
+                                                 benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void BM_Divergence(benchmark::State& state) {
+  const lts::Lts graph = random_lts(1'000'000, 5, 20);
+  for (auto _ : state) benchmark::DoNotOptimize(lts::divergent_states(graph));
+  count_edges(state, graph);
+}
+BENCHMARK(BM_Divergence)->Unit(benchmark::kMillisecond);
+
+void BM_DeterminismOfADeterministicSystem(benchmark::State& state) {
+  Rings system{7};
+  const lts::Lts graph = lts::explore(system).lts;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        lts::check_determinism(graph, lts::DeterminismModel::failures_divergences));
+  }
+  count_edges(state, graph);
+}
+BENCHMARK(BM_DeterminismOfADeterministicSystem)->Unit(benchmark::kMillisecond);
+
+void BM_BuildInAnyOrder(benchmark::State& state) {
+  const lts::Lts graph = random_lts(1'000'000, 4, 10);
+  for (auto _ : state) {
+    lts::LtsBuilder builder(graph.shared_label_names());
+    builder.add_states(static_cast<std::uint32_t>(graph.state_count()));
+    for (std::uint32_t s = 0; s < graph.state_count(); ++s) {
+      for (const lts::Edge& edge : graph.edges(State{s})) {
+        builder.add_edge(edge.target, edge.label, State{s});
+      }
+    }
+    benchmark::DoNotOptimize(std::move(builder).finish(State{0}));
+  }
+  count_edges(state, graph);
+}
+BENCHMARK(BM_BuildInAnyOrder)->Unit(benchmark::kMillisecond);
+
+/// Takes everything and counts it.
+class CountingBuffer : public std::streambuf {
+ public:
+  std::uint64_t count = 0;
+
+ private:
+  std::streamsize xsputn(const char*, std::streamsize size) override {
+    count += static_cast<std::uint64_t>(size);
+    return size;
+  }
+  int_type overflow(int_type c) override {
+    ++count;
+    return traits_type::not_eof(c);
+  }
+};
+
+template <class Write>
+void write_benchmark(benchmark::State& state, Write write) {
+  const lts::Lts graph = random_lts(1'000'000, 4, 10);
+  CountingBuffer buffer;
+  std::ostream out(&buffer);
+  for (auto _ : state) write(out, graph);
+  state.SetBytesProcessed(static_cast<std::int64_t>(buffer.count));
+  count_edges(state, graph);
+}
+
+void BM_WriteAut(benchmark::State& state) {
+  write_benchmark(state, [](std::ostream& out, const lts::Lts& g) { lts::write_aut(out, g); });
+}
+BENCHMARK(BM_WriteAut)->Unit(benchmark::kMillisecond);
+
+void BM_WriteJson(benchmark::State& state) {
+  write_benchmark(state, [](std::ostream& out, const lts::Lts& g) { lts::write_json(out, g); });
+}
+BENCHMARK(BM_WriteJson)->Unit(benchmark::kMillisecond);
+
+void BM_ReadAut(benchmark::State& state) {
+  const lts::Lts graph = random_lts(1'000'000, 4, 10);
+  std::stringbuf buffer;
+  std::ostream out(&buffer);
+  lts::write_aut(out, graph);
+  const std::string text = buffer.str();
+  for (auto _ : state) {
+    perentie::base::SourceMap sources;
+    perentie::base::Diagnostics diagnostics;
+    benchmark::DoNotOptimize(lts::read_aut("random.aut", text, sources, diagnostics));
+  }
+  state.SetBytesProcessed(static_cast<std::int64_t>(text.size()) *
+                          static_cast<std::int64_t>(state.iterations()));
+  count_edges(state, graph);
+}
+BENCHMARK(BM_ReadAut)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();
