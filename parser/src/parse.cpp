@@ -10,11 +10,16 @@ namespace perentie::parser {
 SyntaxTree parse_script(base::FileId root, base::SourceMap& sources, base::Diagnostics& diagnostics,
                         const ParseOptions& options) {
   SyntaxTree tree;
+  tree.declarations = parse_declarations(root, tree, sources, diagnostics, options);
+  return tree;
+}
+
+DeclList parse_declarations(base::FileId root, SyntaxTree& tree, base::SourceMap& sources,
+                            base::Diagnostics& diagnostics, const ParseOptions& options) {
   const TokenStream stream =
       lex_with_includes(root, sources, tree.names, diagnostics, options.load);
   Builder builder({tree, sources, diagnostics, stream, options.max_depth});
-  tree.declarations = ScriptParser(builder).parse();
-  return tree;
+  return ScriptParser(builder).parse();
 }
 
 ExprId parse_expression(base::FileId text, SyntaxTree& tree, const base::SourceMap& sources,

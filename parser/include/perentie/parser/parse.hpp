@@ -29,6 +29,10 @@ struct ParseOptions {
 SyntaxTree parse_script(base::FileId root, base::SourceMap& sources, base::Diagnostics& diagnostics,
                         const ParseOptions& options = {});
 
+/// Adds the declarations of a text, read like a script, to an existing tree.
+DeclList parse_declarations(base::FileId root, SyntaxTree& tree, base::SourceMap& sources,
+                            base::Diagnostics& diagnostics, const ParseOptions& options = {});
+
 /// Adds one expression, which is all of the text, to an existing tree. None after an error.
 ExprId parse_expression(base::FileId text, SyntaxTree& tree, const base::SourceMap& sources,
                         base::Diagnostics& diagnostics, const ParseOptions& options = {});

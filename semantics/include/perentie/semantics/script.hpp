@@ -1,0 +1,97 @@
+// Script: a CSPM file, loaded and ready to be asked. The public face of this library.
+//
+// Loading reads, parses, resolves and lowers (steps 1-5); values and processes are evaluated on demand
+// (step 6), and `TermSystem` gives a process its transitions (the step rules), so that
+// `lts::explore` can make an LTS of it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "perentie/base/diagnostic.hpp"
+#include "perentie/base/limits.hpp"
+#include "perentie/base/source.hpp"
+#include "perentie/lts/transition_system.hpp"
+#include "perentie/parser/ast.hpp"
+#include "perentie/parser/parse.hpp"
+#include "perentie/semantics/process.hpp"
+#include "perentie/semantics/symbols.hpp"
+
+namespace perentie::semantics {
+
+class TermSystem;
+
+class Script {
+ public:
+  /// Loads a file with everything it includes. Nothing if there were errors, which are in
+  /// `diagnostics`. `sources` must outlive the script.
+  static std::unique_ptr<Script> load(base::FileId root, base::SourceMap& sources,
+                                      base::Diagnostics& diagnostics,
+                                      const parser::ParseOptions& options = {});
+  ~Script();
+
+  /// Bounds on every later evaluation.
+  void set_limits(const base::Limits& limits);
+  /// Which budget ended the last evaluation, if one did.
+  std::optional<base::LimitReached> limit() const;
+
+  /// The value of an expression in the script's scope, as FDR prints it.
+  std::optional<std::string> evaluate(std::string_view expression, base::Diagnostics& diagnostics);
+  /// The process that an expression stands for.
+  std::optional<ProcId> process(std::string_view expression, base::Diagnostics& diagnostics);
+
+  /// The transitions of a process by the step rules. The script must outlive the system.
+  TermSystem terms(ProcId initial, base::Diagnostics& diagnostics);
+
+  /// A process term as FDR prints it, cut to `max_length` characters.
+  std::string show(ProcId process, std::size_t max_length = 200) const;
+  /// The declared channels as printed, in order of declaration.
+  std::vector<std::string> channel_names() const;
+  /// The names of the definitions whose value is a process, in order of definition, without
+  /// parameters. For messages and completion.
+  std::vector<std::string> process_names() const;
+
+  const parser::SyntaxTree& tree() const;
+  /// The core code as text, for `dump --phase core`.
+  std::string core_listing() const;
+
+ private:
+  friend class TermSystem;
+  struct Impl;
+  explicit Script(std::unique_ptr<Impl> impl);
+
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A process of a script as a `lts::TransitionSystem`: its states are process terms.
+class TermSystem {
+ public:
+  using State = ProcId;
+
+  ~TermSystem();
+  TermSystem(TermSystem&&) noexcept;
+
+  State initial() const { return initial_; }
+  bool successors(State state, std::vector<lts::Transition<State>>& out);
+  std::uint64_t state_hash(State state) const;
+  /// The names of all events that were used so far.
+  std::shared_ptr<const lts::LabelNames> label_names() const;
+  std::size_t memory_bytes() const;
+
+  /// Which budget ended `successors`, if one did.
+  std::optional<base::LimitReached> limit() const;
+
+ private:
+  friend class Script;
+  struct Impl;
+  TermSystem(std::unique_ptr<Impl> impl, ProcId initial);
+
+  std::unique_ptr<Impl> impl_;
+  ProcId initial_;
+};
+
+}  // namespace perentie::semantics

@@ -1,0 +1,87 @@
+// The operational semantics of process terms, rule by rule (CSPM reference 4.1-4.5).
+//
+// These rules are the reference for everything faster: a term's transitions are computed from those of
+// its operands, and a named call is unfolded to its body. ✓ is treated as FDR treats it: an ordinary
+// label that every parallel operator synchronises, after which nothing happens (4.1.2, 4.1.3). The
+// compressions that preserve every semantic model (`normal`, `sbisim`, ..) are taken as the identity.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "perentie/base/diagnostic.hpp"
+#include "perentie/base/limits.hpp"
+#include "perentie/lts/transition_system.hpp"
+#include "perentie/semantics/process.hpp"
+
+namespace perentie::semantics {
+
+/// Gives the body of a named call: the evaluator, seen from the step rules.
+class CallUnfolder {
+ public:
+  virtual ~CallUnfolder() = default;
+  /// Nothing: evaluation failed and was reported, or a budget ran out (`limit()`).
+  virtual std::optional<ProcId> unfold(ProcId call, base::Diagnostics& diagnostics) = 0;
+  virtual std::optional<base::LimitReached> limit() const = 0;
+  /// What to call the call in messages, and where its definition is.
+  virtual std::string call_name(ProcId call) const = 0;
+  virtual base::Span definition_span(ProcId call) const = 0;
+};
+
+class StepRules {
+ public:
+  using Step = lts::Transition<ProcId>;
+  using Steps = std::vector<Step>;
+
+  StepRules(CallUnfolder& calls, const EventTable& events, ProcStore& processes,
+            base::Diagnostics& diagnostics)
+      : calls_(calls), events_(events), processes_(processes), diagnostics_(diagnostics) {}
+
+  /// Appends the transitions of a term. False: they cannot be computed; the reason was reported, or
+  /// `limit()` says which budget ran out.
+  bool successors(ProcId process, Steps& out);
+  std::optional<base::LimitReached> limit() const { return limit_; }
+
+ private:
+  bool step(ProcId process, Steps& out);
+  bool step_term(ProcId process, Steps& out);
+  bool step_call(ProcId process, Steps& out);
+  bool external_choice(ProcId process, Steps& out);
+  bool sequential(ProcId process, Steps& out);
+  bool interrupt(ProcId process, Steps& out);
+  bool sliding_choice(ProcId process, Steps& out);
+  bool parallel(ProcId process, Steps& out);
+  bool link_parallel(ProcId process, Steps& out);
+  bool exception(ProcId process, Steps& out);
+  bool sync_choice(ProcId process, Steps& out);
+  bool sync_interrupt(ProcId process, Steps& out);
+  bool hide_or_project(ProcId process, Steps& out);
+  bool rename(ProcId process, Steps& out);
+  bool prioritise(ProcId process, Steps& out);
+  bool prioritise_partial(ProcId process, Steps& out);
+  bool compression(ProcId process, Steps& out);
+  void chaos(ProcId process, Steps& out);
+
+  std::optional<ProcId> sequential_target(ProcId left, ProcId right);
+  std::optional<bool> only_terminates(ProcId process);
+  ProcId with_operand(ProcId process, std::size_t word, ProcId operand);
+  ProcId after(ProcId process, std::size_t word, const Step& step);
+  void synchronised(ProcId process, std::span<const std::size_t> places,
+                    std::span<const Steps> steps, EventId event, Steps& out);
+
+  CallUnfolder& calls_;
+  const EventTable& events_;
+  ProcStore& processes_;
+  base::Diagnostics& diagnostics_;
+  std::uint32_t depth_ = 0;
+  std::unordered_set<std::uint32_t> unfolding_;               // calls that are being stepped
+  std::unordered_map<std::uint32_t, bool> only_terminates_;   // by process
+  std::optional<base::LimitReached> limit_;
+};
+
+}  // namespace perentie::semantics

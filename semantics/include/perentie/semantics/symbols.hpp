@@ -1,0 +1,66 @@
+// Symbols: what every name of a script stands for, once scopes are resolved.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "perentie/base/id.hpp"
+#include "perentie/parser/ast.hpp"
+#include "perentie/semantics/builtins.hpp"
+
+namespace perentie::semantics {
+
+using SymbolId = base::Id<struct SymbolTag>;
+
+enum class SymbolKind : std::uint8_t {
+  builtin,
+  constant,     ///< `x = e`, or one variable of `p = e`
+  function,     ///< `f(..) = e`
+  channel,
+  constructor,
+  datatype,     ///< or subtype: the set of its values
+  nametype,
+  variable,     ///< bound by a function's, lambda's, field's or generator's pattern
+  module,
+  unsupported,  ///< declared by a construct that is not supported yet; an error where it is used
+};
+
+struct Symbol {
+  SymbolKind kind;
+  base::NameId name;
+  std::string qualified;          ///< as printed: `M::x` for a member of a module
+  std::optional<base::Span> span; ///< where it is defined; none for built-ins
+  Builtin builtin{};              ///< of a `builtin`
+  parser::DeclId decl = {};       ///< of everything declared
+  std::uint32_t index = 0;        ///< of a constructor or channel: its place in the declaration
+  std::uint32_t groups = 0;       ///< of a function: how many argument groups it takes
+  std::string_view unsupported_construct = {};  ///< of an `unsupported`: which, such as "timed sections"
+  bool is_used = false;
+  bool is_process = false;        ///< a constant or function whose (final) value is a process
+};
+
+/// The members of a module by name.
+struct ModuleMembers {
+  std::unordered_map<base::NameId, SymbolId> exported;
+  std::unordered_map<base::NameId, SymbolId> private_;
+};
+
+/// What name resolution found: side tables beside the (unchanged) syntax tree, by node id.
+struct Resolution {
+  base::Store<SymbolId, Symbol> symbols;
+  std::vector<SymbolId> of_expr;      ///< a NameExpr: what it refers to
+  std::vector<SymbolId> of_pattern;   ///< a NamePattern: the variable it binds or the atom it matches
+  std::vector<SymbolId> of_decl;      ///< a function, datatype, nametype or module: its symbol
+  std::vector<SymbolId> channels;     ///< all channels, in order of declaration
+  /// By DeclId: the channels of a channel declaration, the constructors that a datatype declares or a
+  /// subtype names.
+  std::unordered_map<std::uint32_t, std::vector<SymbolId>> members;
+  std::unordered_map<std::uint32_t, ModuleMembers> modules;  ///< by SymbolId of the module
+  std::unordered_map<std::string, SymbolId> prelude;         ///< the functions of the prelude
+};
+
+}  // namespace perentie::semantics

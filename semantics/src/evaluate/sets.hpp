@@ -1,0 +1,39 @@
+// Operations on sets of values, finite and infinite (CSPM reference 3.4).
+//
+// A finite set is the sorted sequence of its elements. Infinite ones are known by shape only: what
+// cannot be answered for them is an evaluation failure that says so, never a guess.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "perentie/semantics/value.hpp"
+
+namespace perentie::semantics {
+
+/// Sets with more elements than this are not listed.
+inline constexpr std::size_t max_set_elements = std::size_t{1} << 24U;
+
+bool is_finite_set(const ValueStore& values, ValueId set);
+
+/// The elements in order; fails for an infinite set, naming `purpose` ("Cannot ... ").
+std::vector<ValueId> elements_of(const ValueStore& values, ValueId set, std::string_view purpose);
+
+ValueId set_union(ValueStore& values, ValueId a, ValueId b);
+ValueId set_intersection(ValueStore& values, const Resolution& resolution, ValueId a, ValueId b);
+ValueId set_difference(ValueStore& values, const Resolution& resolution, ValueId a, ValueId b);
+ValueId union_of_all(ValueStore& values, ValueId sets);
+ValueId intersection_of_all(ValueStore& values, const Resolution& resolution, ValueId sets);
+ValueId power_set(ValueStore& values, ValueId set);
+ValueId range_set(ValueStore& values, std::int64_t first, std::int64_t last);
+/// All tuples with one component from each set.
+ValueId tuple_product(ValueStore& values, std::span<const ValueId> sets);
+/// All partial maps (3.7).
+ValueId all_maps(ValueStore& values, ValueId keys, ValueId results);
+
+/// Membership in any set, infinite ones included. `data_set` membership is by datatype of the value's
+/// constructor, whose fields were checked when the value was built.
+bool set_contains(const ValueStore& values, const Resolution& resolution, ValueId set,
+                  ValueId element);
+
+}  // namespace perentie::semantics

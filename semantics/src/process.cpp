@@ -1,0 +1,104 @@
+#include "perentie/semantics/process.hpp"
+
+#include <algorithm>
+
+namespace perentie::semantics {
+namespace {
+
+std::span<const std::uint32_t> as_words(std::span<const ProcId> processes) {
+  static_assert(sizeof(ProcId) == sizeof(std::uint32_t));
+  return {reinterpret_cast<const std::uint32_t*>(processes.data()), processes.size()};
+}
+
+}  // namespace
+
+ProcStore::ProcStore() {
+  stop_ = intern(ProcKind::stop, {});
+  skip_ = intern(ProcKind::skip, {});
+  div_ = intern(ProcKind::div, {});
+}
+
+ProcId ProcStore::prefix(EventId event, ProcId body) {
+  return intern(ProcKind::prefix, {event.value, body.value});
+}
+
+ProcId ProcStore::event_set_prefix(EventSetId events, ProcId body) {
+  return intern(ProcKind::event_set_prefix, {events.value, body.value});
+}
+
+ProcId ProcStore::n_ary(ProcKind kind, std::span<const ProcId> operands) {
+  return intern(kind, as_words(operands));
+}
+
+ProcId ProcStore::external_choice(std::span<const ProcId> operands) {
+  if (operands.empty()) return stop_;
+  return operands.size() == 1 ? operands[0] : n_ary(ProcKind::external_choice, operands);
+}
+
+ProcId ProcStore::internal_choice(std::span<const ProcId> operands) {
+  PERENTIE_CHECK(!operands.empty(), "an internal choice needs an operand");
+  return n_ary(ProcKind::internal_choice, operands);
+}
+
+ProcId ProcStore::interleave(std::span<const ProcId> operands) {
+  if (operands.empty()) return skip_;
+  return operands.size() == 1 ? operands[0] : n_ary(ProcKind::interleave, operands);
+}
+
+ProcId ProcStore::parallel(EventSetId alphabet, std::span<const ProcId> operands) {
+  if (operands.empty()) return skip_;
+  if (operands.size() == 1) return operands[0];
+  std::vector<std::uint32_t> words{alphabet.value};
+  const auto rest = as_words(operands);
+  words.insert(words.end(), rest.begin(), rest.end());
+  return intern(ProcKind::parallel, words);
+}
+
+ProcId ProcStore::sync_choice(EventSetId alphabet, std::span<const ProcId> operands) {
+  if (operands.empty()) return stop_;
+  if (operands.size() == 1) return operands[0];
+  std::vector<std::uint32_t> words{alphabet.value};
+  const auto rest = as_words(operands);
+  words.insert(words.end(), rest.begin(), rest.end());
+  return intern(ProcKind::sync_choice, words);
+}
+
+ProcId ProcStore::alphabet_parallel(std::span<const std::uint32_t> words) {
+  return words.empty() ? skip_ : intern(ProcKind::alphabet_parallel, words);
+}
+
+ProcId ProcStore::binary(ProcKind kind, ProcId left, ProcId right) {
+  return intern(kind, {left.value, right.value});
+}
+
+ProcId ProcStore::binary(ProcKind kind, std::uint32_t word, ProcId left, ProcId right) {
+  return intern(kind, {word, left.value, right.value});
+}
+
+ProcId ProcStore::unary(ProcKind kind, std::uint32_t word, ProcId operand) {
+  return intern(kind, {word, operand.value});
+}
+
+ProcId ProcStore::chaos(EventSetId events) { return intern(ProcKind::chaos, {events.value}); }
+
+ProcId ProcStore::run(EventSetId events) { return intern(ProcKind::run, {events.value}); }
+
+ProcId ProcStore::call(ValueId function, std::span<const ValueId> arguments) {
+  std::vector<std::uint32_t> words{function.bits};
+  for (const ValueId argument : arguments) words.push_back(argument.bits);
+  return intern(ProcKind::call, words);
+}
+
+ProcId ProcStore::prioritise(ProcId operand, std::span<const EventSetId> order) {
+  std::vector<std::uint32_t> words{operand.value};
+  for (const EventSetId set : order) words.push_back(set.value);
+  return intern(ProcKind::prioritise, words);
+}
+
+ProcId ProcStore::prioritise_partial(EventSetId below_tau, EventRelationId blocked_by,
+                                     ProcId operand) {
+  return intern(ProcKind::prioritise_partial,
+                {below_tau.value, blocked_by.value, operand.value});
+}
+
+}  // namespace perentie::semantics
