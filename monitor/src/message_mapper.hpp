@@ -1,21 +1,23 @@
 // MessageMapper: one JSON message to the texts of its events, by the rules of a mapping.
 //
-// The fields that any rule needs are numbered (`slots`) and found in one pass over the message,
-// which need not be read further than its structure elsewhere. Then the first rule that is for the
-// message makes its events. Nothing is allocated per message once the buffers have grown.
+// The fields that any rule needs are found in one pass; then the first rule that is for the message
+// makes its events. Which rules are for a topic is worked out once per topic. Nothing is allocated
+// per message once the buffers have grown.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
+#include "field_finder.hpp"
 #include "perentie/base/diagnostic.hpp"
 #include "perentie/monitor/event_map.hpp"
 #include "perentie/monitor/mapping.hpp"
+#include "perentie/monitor/string_hash.hpp"
 
 namespace perentie::monitor {
 
@@ -32,9 +34,6 @@ class MessageMapper {
  public:
   /// Both must outlive the mapper; the event map may be null.
   MessageMapper(const Mapping& mapping, const EventMap* event_map);
-  ~MessageMapper();
-  MessageMapper(const MessageMapper&) = delete;
-  MessageMapper& operator=(const MessageMapper&) = delete;
 
   /// Maps one message, which must be followed by `TraceInput::padding` readable bytes. False:
   /// `fault()` says why; otherwise `events()` holds what was made, possibly nothing.
@@ -44,27 +43,19 @@ class MessageMapper {
   const MappingFault& fault() const { return fault_; }
 
  private:
-  struct Reader;  // the pass over the message, with simdjson
-
-  using Slot = std::uint32_t;
-  static constexpr Slot no_slot = ~Slot{0};
-
-  // What stands in a slot: the field's JSON text. No data: the message has no such field.
-  using Field = std::string_view;
+  using Slot = FieldFinder::Slot;
 
   struct CompiledRule {
     const Rule* rule;
-    std::string topic;  // without the leading slash where that is optional
-    bool exact_topic = false;
     std::vector<Slot> has;
     std::vector<Slot> values;  // by index into Rule::values
   };
 
   enum class Outcome : std::uint8_t { text, null, ignored, fault };
 
-  Slot slot_for(const FieldPath& path);
-  bool read_topic();
-  bool applies(const CompiledRule& rule) const;
+  const std::vector<std::uint32_t>* rules_for(Field topic);
+  bool topic_matches(const Rule& rule, std::string_view topic) const;
+  bool has_fields(const CompiledRule& rule) const;
   bool apply(const CompiledRule& rule);
   Outcome fill(const CompiledRule& rule, const EventTemplate& parts, std::string& event);
   Outcome append_value(const MappedValue& value, Field field, std::string& out);
@@ -79,13 +70,15 @@ class MessageMapper {
 
   const Mapping* mapping_;
   const EventMap* event_map_;
-  std::vector<CompiledRule> rules_;
+  FieldFinder finder_;
   Slot topic_slot_;
-  std::unique_ptr<Reader> reader_;
+  std::vector<CompiledRule> rules_;
+  std::vector<std::uint32_t> rules_without_topic_;
+  /// By the JSON text of the topic.
+  std::unordered_map<std::string, std::vector<std::uint32_t>, StringHash, std::equal_to<>>
+      rules_by_topic_;
 
   std::string_view message_;
-  std::string topic_;
-  std::vector<Field> fields_;  // by slot
   std::vector<std::string> events_;
   std::size_t event_count_ = 0;
   std::string value_;

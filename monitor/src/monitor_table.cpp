@@ -1,7 +1,5 @@
 #include "perentie/monitor/monitor_table.hpp"
 
-#include <algorithm>
-
 #include "perentie/base/check.hpp"
 
 namespace perentie::monitor {
@@ -99,13 +97,17 @@ void MonitorTable::fill_rows(const lts::Lts& deterministic, const std::vector<Ev
   }
 }
 
+// Halves the row without branches that depend on the events, which cannot be predicted.
 State MonitorTable::search_row(State state, Event event) const {
-  const auto begin = row_events_.begin();
-  const auto first = begin + static_cast<std::ptrdiff_t>(rows_[state.value]);
-  const auto last = begin + static_cast<std::ptrdiff_t>(rows_[state.value + 1]);
-  const auto found = std::lower_bound(first, last, event);
-  if (found == last || *found != event) return State{};
-  return row_targets_[static_cast<std::size_t>(found - begin)];
+  std::size_t at = rows_[state.value];
+  std::size_t length = rows_[state.value + 1] - at;
+  if (length == 0) return State{};
+  while (length > 1) {
+    const std::size_t half = length / 2;
+    at += row_events_[at + half] <= event ? half : 0;
+    length -= half;
+  }
+  return row_events_[at] == event ? row_targets_[at] : State{};
 }
 
 std::vector<Event> MonitorTable::enabled(State state) const {

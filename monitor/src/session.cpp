@@ -80,8 +80,8 @@ RunResult run_trace(EventStream& stream, const MonitorModel& model, Mode mode) {
     ++result.events_checked;
     const Verdict verdict = monitor.step(event);
     if (verdict == Verdict::ignored) count_ignored(result, traced.text);
-    // The texts of the last event are needed only if it is the last, which is known too late.
-    result.event.assign(traced.text);
+    // Which event is the last is known too late to ask for its text; the model has that of its own.
+    if (event.is_none()) result.event.assign(traced.text);
     result.place = traced.place;
     if (verdict == Verdict::violation) {
       result.verdict = RunVerdict::violation;

@@ -50,7 +50,7 @@ TEST(SimpleMappingTest, WithoutDataThereIsNoEvent) {
       (Texts{"a",
              "trace:2:1: error: the field `data` is missing [M025]\n"
              "{\"topic\": \"move\", \"location\": 1}\n^\n"
-             "perentie: note: the topic is `move`, and the mapping is `simple`\n"}));
+             "perentie: note: the mapping is `simple`\n"}));
 }
 
 TEST(SimpleMappingTest, WithoutTopicThereIsNoEvent) {
@@ -102,7 +102,7 @@ TEST(RoverMappingTest, AReadingBelowZeroIsAnError) {
              "trace:2:11: error: the field `value` is -1.0, which is below the lowest threshold "
              "[M025]\n"
              "{\"value\": -1.0, \"topic\": \"/radiation_sensor_plugin/sensor_0\"}\n          ^~~~\n"
-             "perentie: note: the topic is `/radiation_sensor_plugin/sensor_0`, and the mapping is "
+             "perentie: note: the mapping is "
              "`varanus-rover`\n"}));
 }
 
@@ -288,15 +288,15 @@ const BadMessage bad_messages[] = {
      "{\"topic\":\"t\",\"x\":\"\xFF\"}\n                  ^\n"},
     {"missing_field", "{\"topic\":\"t\"}",
      "trace:2:1: error: the field `x` is missing [M025]\n{\"topic\":\"t\"}\n^\n"
-     "perentie: note: the topic is `t`, and the mapping is `m`\n"},
+     "perentie: note: the mapping is `m`\n"},
     {"null_field", "{\"topic\":\"t\",\"x\":null}",
      "trace:2:18: error: the field `x` is null, but the event needs it [M025]\n"
      "{\"topic\":\"t\",\"x\":null}\n                 ^~~~\n"
-     "perentie: note: the topic is `t`, and the mapping is `m`\n"},
+     "perentie: note: the mapping is `m`\n"},
     {"object_field", "{\"topic\":\"t\",\"x\":{\"y\":1}}",
      "trace:2:18: error: the field `x` is {\"y\":1}, which is not a single value or a list of them "
      "[M025]\n{\"topic\":\"t\",\"x\":{\"y\":1}}\n                 ^~~~~~~\n"
-     "perentie: note: the topic is `t`, and the mapping is `m`\n"},
+     "perentie: note: the mapping is `m`\n"},
     {"unmapped_topic", "{\"topic\":\"tt\",\"x\":1}",
      "trace:2:10: error: the mapping `m` has no rule for the topic \"tt\" [M024]\n"
      "{\"topic\":\"tt\",\"x\":1}\n         ^~~~\n"},
@@ -304,6 +304,24 @@ const BadMessage bad_messages[] = {
 
 INSTANTIATE_TEST_SUITE_P(Messages, BadMessageTest, testing::ValuesIn(bad_messages),
                          [](const auto& instance) { return instance.param.name; });
+
+// The first block of a Markdown text that begins with ``` and this word.
+std::string fenced_block(const std::string& text, const std::string& word) {
+  const std::string open = "```" + word + "\n";
+  const std::size_t begin = text.find(open) + open.size();
+  return text.substr(begin, text.find("```", begin) - begin);
+}
+
+TEST(MessageMappingTest, TheWorkedExampleOfTheManualIsTrue) {
+  const auto manual = base::read_file("docs/mapping.md");
+  ASSERT_TRUE(manual.text) << manual.error;
+  std::string events;
+  for (const std::string& event : events_of(fenced_block(*manual.text, "json"),
+                                            {.mapping = fenced_block(*manual.text, "yaml")})) {
+    events += event + "\n";
+  }
+  EXPECT_EQ(events, fenced_block(*manual.text, "text"));
+}
 
 TEST(MessageMappingTest, NaNAndInfinityAreNoFaultWhereTheyDoNotMatter) {
   EXPECT_EQ(events_of("{\"a\":NaN,\"topic\":\"t\",\"b\":[1.5,Infinity,-Infinity],\"x\":1}\n",

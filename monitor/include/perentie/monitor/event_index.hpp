@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "perentie/monitor/monitor_table.hpp"
+#include "perentie/monitor/string_hash.hpp"
 
 namespace perentie::monitor {
 
@@ -29,18 +30,11 @@ class EventIndex {
   }
 
  private:
-  struct Hash {
-    using is_transparent = void;
-    std::size_t operator()(std::string_view text) const noexcept {
-      return std::hash<std::string_view>{}(text);
-    }
-  };
-
   Event find_normalised(std::string_view text) const;
 
   // Every label of the model; those that never occur map to none, so that no other reading is
   // tried.
-  std::unordered_map<std::string, Event, Hash, std::equal_to<>> events_;
+  std::unordered_map<std::string, Event, StringHash, std::equal_to<>> events_;
 };
 
 }  // namespace perentie::monitor

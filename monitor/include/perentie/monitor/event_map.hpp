@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "perentie/base/diagnostic.hpp"
+#include "perentie/monitor/string_hash.hpp"
 
 namespace perentie::monitor {
 
@@ -34,14 +35,7 @@ class EventMap {
   std::size_t size() const { return names_.size(); }
 
  private:
-  struct Hash {
-    using is_transparent = void;
-    std::size_t operator()(std::string_view text) const noexcept {
-      return std::hash<std::string_view>{}(text);
-    }
-  };
-
-  std::unordered_map<std::string, std::string, Hash, std::equal_to<>> names_;
+  std::unordered_map<std::string, std::string, StringHash, std::equal_to<>> names_;
 };
 
 /// Reads an event map from a file already in `sources`. None after diagnostics if it is not one.
