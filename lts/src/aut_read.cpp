@@ -301,6 +301,9 @@ bool AutReader::check_counts() {
 
 std::optional<Lts> AutReader::read() {
   if (!read_header()) return std::nullopt;
+  constexpr std::uint64_t shortest_line = 8;  // such as (0,a,0) and its line end
+  const auto bytes_left = static_cast<std::uint64_t>(end_ - next_);
+  builder_.reserve_edges(std::min(transitions_.value, bytes_left / shortest_line));
   for (; errors_ < max_errors && next_line(); ++edges_read_) read_edge();
   if (errors_ > 0 || !check_counts()) return std::nullopt;
   builder_.add_states(static_cast<std::uint32_t>(states_.value));

@@ -50,7 +50,7 @@ struct Rings {
   std::shared_ptr<const lts::LabelNames> label_names() const { return names(rings); }
 };
 
-void BM_Explore(benchmark::State& state) {
+void explore_rings(benchmark::State& state) {
   Rings system{static_cast<std::uint32_t>(state.range(0))};
   double states = 0;
   double transitions = 0;
@@ -62,7 +62,7 @@ void BM_Explore(benchmark::State& state) {
   state.counters["states/s"] = benchmark::Counter(states, benchmark::Counter::kIsRate);
   state.counters["transitions/s"] = benchmark::Counter(transitions, benchmark::Counter::kIsRate);
 }
-BENCHMARK(BM_Explore)->Arg(7)->Arg(8)->Unit(benchmark::kMillisecond);
+BENCHMARK(explore_rings)->Arg(7)->Arg(8)->Unit(benchmark::kMillisecond);
 
 /// The n-th event from the end is the first: n + 1 states, 2^n nodes.
 lts::Lts exponential(std::uint32_t n) {
@@ -77,7 +77,7 @@ lts::Lts exponential(std::uint32_t n) {
   return std::move(rows).finish(State{0}, n + 1, names(2));
 }
 
-void BM_NormaliseExponential(benchmark::State& state) {
+void normalise_exponential(benchmark::State& state) {
   const lts::Lts nfa = exponential(static_cast<std::uint32_t>(state.range(0)));
   double nodes = 0;
   for (auto _ : state) {
@@ -87,7 +87,7 @@ void BM_NormaliseExponential(benchmark::State& state) {
   }
   state.counters["nodes/s"] = benchmark::Counter(nodes, benchmark::Counter::kIsRate);
 }
-BENCHMARK(BM_NormaliseExponential)
+BENCHMARK(normalise_exponential)
     ->ArgNames({"n", "acceptances"})
     ->Args({16, 0})
     ->Args({20, 0})
@@ -115,14 +115,14 @@ void count_edges(benchmark::State& state, const lts::Lts& graph) {
                                                  benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void BM_Divergence(benchmark::State& state) {
+void divergence(benchmark::State& state) {
   const lts::Lts graph = random_lts(1'000'000, 5, 20);
   for (auto _ : state) benchmark::DoNotOptimize(lts::divergent_states(graph));
   count_edges(state, graph);
 }
-BENCHMARK(BM_Divergence)->Unit(benchmark::kMillisecond);
+BENCHMARK(divergence)->Unit(benchmark::kMillisecond);
 
-void BM_DeterminismOfADeterministicSystem(benchmark::State& state) {
+void determinism(benchmark::State& state) {
   Rings system{7};
   const lts::Lts graph = lts::explore(system).lts;
   for (auto _ : state) {
@@ -131,9 +131,9 @@ void BM_DeterminismOfADeterministicSystem(benchmark::State& state) {
   }
   count_edges(state, graph);
 }
-BENCHMARK(BM_DeterminismOfADeterministicSystem)->Unit(benchmark::kMillisecond);
+BENCHMARK(determinism)->Unit(benchmark::kMillisecond);
 
-void BM_BuildInAnyOrder(benchmark::State& state) {
+void build_in_any_order(benchmark::State& state) {
   const lts::Lts graph = random_lts(1'000'000, 4, 10);
   for (auto _ : state) {
     lts::LtsBuilder builder(graph.shared_label_names());
@@ -147,7 +147,7 @@ void BM_BuildInAnyOrder(benchmark::State& state) {
   }
   count_edges(state, graph);
 }
-BENCHMARK(BM_BuildInAnyOrder)->Unit(benchmark::kMillisecond);
+BENCHMARK(build_in_any_order)->Unit(benchmark::kMillisecond);
 
 /// Takes everything and counts it.
 class CountingBuffer : public std::streambuf {
@@ -175,17 +175,17 @@ void write_benchmark(benchmark::State& state, Write write) {
   count_edges(state, graph);
 }
 
-void BM_WriteAut(benchmark::State& state) {
+void aut_write(benchmark::State& state) {
   write_benchmark(state, [](std::ostream& out, const lts::Lts& g) { lts::write_aut(out, g); });
 }
-BENCHMARK(BM_WriteAut)->Unit(benchmark::kMillisecond);
+BENCHMARK(aut_write)->Unit(benchmark::kMillisecond);
 
-void BM_WriteJson(benchmark::State& state) {
+void json_write(benchmark::State& state) {
   write_benchmark(state, [](std::ostream& out, const lts::Lts& g) { lts::write_json(out, g); });
 }
-BENCHMARK(BM_WriteJson)->Unit(benchmark::kMillisecond);
+BENCHMARK(json_write)->Unit(benchmark::kMillisecond);
 
-void BM_ReadAut(benchmark::State& state) {
+void aut_read(benchmark::State& state) {
   const lts::Lts graph = random_lts(1'000'000, 4, 10);
   std::stringbuf buffer;
   std::ostream out(&buffer);
@@ -200,7 +200,7 @@ void BM_ReadAut(benchmark::State& state) {
                           static_cast<std::int64_t>(state.iterations()));
   count_edges(state, graph);
 }
-BENCHMARK(BM_ReadAut)->Unit(benchmark::kMillisecond);
+BENCHMARK(aut_read)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

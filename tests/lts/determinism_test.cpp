@@ -1,4 +1,5 @@
 // The determinism check on hand-made graphs: verdicts of the reference, witnesses, limits.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -20,8 +21,8 @@ std::string verdict(const Lts& lts, DeterminismModel model) {
   const DeterminismVerdict verdict = check_determinism(lts, model);
   if (std::holds_alternative<Deterministic>(verdict)) return "deterministic";
   const auto& found = std::get<Nondeterminism>(verdict);
-  const auto path = [&](const Path& p) { return " (" + to_text(lts, labels_of(p)) + ")"; };
-  const std::string trace = "<" + to_text(lts, found.trace) + ">";
+  const auto path = [&](const Path& p) { return fmt::format(" ({})", to_text(lts, labels_of(p))); };
+  const std::string trace = fmt::format("<{}>", to_text(lts, found.trace));
   if (!found.event) return trace + " diverges" + path(found.refusing);
   return trace + " " + std::string(lts.name(*found.event)) + path(found.refusing) +
          path(found.performing);

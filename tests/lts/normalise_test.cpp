@@ -1,5 +1,6 @@
 // The normal form on hand-made graphs: τ-closure, nondeterminism, ✓, divergence, acceptances,
 // limits.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -34,7 +35,7 @@ std::vector<std::string> acceptances(const NormalLts& normal, std::uint32_t node
   std::vector<std::string> sets;
   for (const AcceptanceId id : normal.acceptances->of(State{node})) {
     const auto labels = normal.acceptances->labels(id);
-    sets.push_back("{" + to_text(normal.lts, {labels.begin(), labels.end()}) + "}");
+    sets.push_back(fmt::format("{{{}}}", to_text(normal.lts, {labels.begin(), labels.end()})));
   }
   std::sort(sets.begin(), sets.end());
   return sets;

@@ -11,6 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "perentie/base/check.hpp"
+
 namespace perentie::base {
 
 class UniqueIndex {
@@ -22,8 +24,8 @@ class UniqueIndex {
   };
 
   /// Looks for an element with this hash for which `equal(index)` holds. If there is none, inserts
-  /// `next_index`, which the caller then appends to its store. `rehash(index)` recomputes an
-  /// element's hash when the table grows.
+  /// `next_index`, which the caller then appends to its store: indices are 0, 1, 2, ... in order of
+  /// insertion. `rehash(index)` recomputes an element's hash when the table grows.
   template <class Equal, class Rehash>
   Result find_or_insert(std::uint64_t hash, std::uint32_t next_index, Equal equal, Rehash rehash) {
     if ((size_ + 1) * 2 > slots_.size()) grow(rehash);
@@ -31,6 +33,7 @@ class UniqueIndex {
     for (; slots_[slot] != empty_slot; slot = (slot + 1) & mask()) {
       if (equal(slots_[slot])) return {slots_[slot], false};
     }
+    PERENTIE_CHECK(next_index == size_, "an element is not numbered in order of insertion");
     slots_[slot] = next_index;
     ++size_;
     return {next_index, true};
@@ -55,12 +58,13 @@ class UniqueIndex {
 
   std::size_t mask() const { return slots_.size() - 1; }
 
+  // Goes through the elements in their order, which is kind to the cache, and needs no old table.
   template <class Rehash>
   void grow(Rehash rehash) {
-    std::vector<std::uint32_t> old = std::move(slots_);
-    slots_.assign(old.empty() ? 64 : old.size() * 2, empty_slot);
-    for (const std::uint32_t index : old) {
-      if (index == empty_slot) continue;
+    const std::size_t slot_count = slots_.empty() ? 64 : slots_.size() * 2;
+    std::vector<std::uint32_t>().swap(slots_);
+    slots_.assign(slot_count, empty_slot);
+    for (std::uint32_t index = 0; index < size_; ++index) {
       std::size_t slot = rehash(index) & mask();
       while (slots_[slot] != empty_slot) slot = (slot + 1) & mask();
       slots_[slot] = index;

@@ -88,6 +88,7 @@ class LtsBuilder {
   void add_states(std::uint32_t count) { state_count_ += count; }
   std::uint32_t state_count() const { return state_count_; }
   void add_edge(State source, Label label, State target);
+  void reserve_edges(std::size_t count) { edges_.reserve(count); }
 
   /// Sorts, removes duplicate edges, and hands the graph over. `initial` must be a state.
   Lts finish(State initial) &&;

@@ -2,7 +2,7 @@
 // before the memory is taken, not noticed after.
 //
 // A vector that outgrows its block holds the old block and the used part of the new one at the same
-// time; a hash table that doubles holds both tables.
+// time; a hash table doubles.
 #pragma once
 
 #include <cstddef>
@@ -21,16 +21,12 @@ std::uint64_t peak_bytes(const std::vector<T>& vector, std::size_t more) {
   return (static_cast<std::uint64_t>(size) + moved) * sizeof(T);
 }
 
-/// The bytes in use, at the peak, while `more` elements are inserted.
+/// The bytes in use once `more` elements are inserted.
 inline std::uint64_t peak_bytes(const base::UniqueIndex& index, std::size_t more) {
+  const std::uint64_t needed = 2 * sizeof(std::uint32_t) * (index.size() + more);
   std::uint64_t bytes = index.memory_bytes();
-  std::uint64_t old_bytes = 0;
-  for (const std::uint64_t needed = 2 * sizeof(std::uint32_t) * (index.size() + more);
-       bytes < needed;) {
-    old_bytes = bytes;
-    bytes = bytes == 0 ? needed : bytes * 2;
-  }
-  return bytes + old_bytes;
+  while (bytes < needed) bytes = bytes == 0 ? needed : bytes * 2;
+  return bytes;
 }
 
 }  // namespace perentie::lts

@@ -69,8 +69,10 @@ class UniqueRuns {
  private:
   static std::uint64_t hash(std::span<const T> run) {
     std::uint64_t hash = base::hash_mix(0, run.size());
-    for (const T item : run) hash = base::hash_mix(hash, item.value);
-    return hash;
+    for (; run.size() >= 2; run = run.subspan(2)) {
+      hash = base::hash_mix(hash, (std::uint64_t{run[0].value} << 32U) | run[1].value);
+    }
+    return run.empty() ? hash : base::hash_mix(hash, run[0].value);
   }
 
   Runs<T> runs_;
