@@ -22,8 +22,8 @@ struct ParseOptions {
   std::function<base::FileText(const std::string& path)> load = base::read_file;
   /// How deep brackets, `let`, `if`, lambdas, replicated and unary operators may nest together.
   /// Chains of infix operators, calls and renamings do not count, and may be of any length. The
-  /// default keeps the parser within a stack of 8 MB, with sanitizers and without optimisation too.
-  std::uint32_t max_depth = 400;
+  /// default takes about half of a stack of 8 MB in an unoptimised build with sanitizers.
+  std::uint32_t max_depth = 256;
 };
 
 SyntaxTree parse_script(base::FileId root, base::SourceMap& sources, base::Diagnostics& diagnostics,
