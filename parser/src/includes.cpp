@@ -77,7 +77,7 @@ class Expander {
   }
 
   void close() {
-    boundary(files_.back().directive);
+    boundary();
     files_.pop_back();
   }
 
@@ -85,7 +85,7 @@ class Expander {
   void include() {
     const Token directive = stream_.tokens.back();
     stream_.tokens.pop_back();
-    boundary(directive.span);
+    boundary();
     const std::string_view name = names_[directive.name()];
     Found found = find_file(name, files_.back().path, root_, load_);
     if (!may_open(found.path, directive.span)) return;
@@ -121,9 +121,11 @@ class Expander {
     return false;
   }
 
-  void boundary(base::Span span) {
+  // Where a file begins or ends, a newline token that nothing soaks up.
+  void boundary() {
     if (stream_.tokens.empty() || stream_.tokens.back().kind == TokenKind::newline) return;
-    stream_.tokens.push_back({TokenKind::newline, 0, {span.begin, span.begin}});
+    const base::Offset end = stream_.tokens.back().span.end;
+    stream_.tokens.push_back({TokenKind::newline, 0, {end, end}});
   }
 
   base::SourceMap& sources_;

@@ -13,7 +13,7 @@ namespace perentie::parser {
 namespace {
 
 // After so many unreadable places a text is hardly a script.
-constexpr int max_errors = 50;
+constexpr int max_errors = 20;
 
 constexpr bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == '\n';
@@ -142,12 +142,10 @@ Lexer::Stop Lexer::run() {
 }
 
 void Lexer::skip_gap() {
-  gap_ = {};
-  const std::size_t start = at_;
+  gap_ = {at_, false, false};
   while (at_ < text_.size()) {
     const char c = text_[at_];
     if (c == '\n') {
-      if (!gap_.newline) gap_.newline_at = at_;
       gap_.newline = line_start_ = true;
       ++at_;
     } else if (is_blank(c)) {
@@ -160,7 +158,7 @@ void Lexer::skip_gap() {
       break;
     }
   }
-  gap_.blank = at_ > start;
+  gap_.blank = at_ > gap_.begin;
 }
 
 // Comments nest. A `-` inside takes the next byte with it, whatever that is: `--}` closes nothing
@@ -171,7 +169,7 @@ bool Lexer::skip_block_comment() {
   std::size_t depth = 1;
   while (depth > 0) {
     if (at_ >= text_.size()) {
-      report(codes::unclosed_comment, start, start + 2, "this comment is not closed by `-}`");
+      report_unclosed_comment(start);
       return false;
     }
     const char c = text_[at_++];
@@ -181,6 +179,16 @@ bool Lexer::skip_block_comment() {
     if (c == '{' && next == '-') ++depth;
   }
   return true;
+}
+
+void Lexer::report_unclosed_comment(std::size_t start) {
+  base::Diagnostic& diagnostic =
+      report(codes::unclosed_comment, start, start + 2, "this comment is not closed by `-}`");
+  if (is_digit(text_[start + 2 < text_.size() ? start + 2 : start])) {
+    diagnostic.notes.push_back(
+        {std::nullopt, "a set that begins with a negative number needs a blank: `{ -1}`"});
+  }
+  emit(TokenKind::error, start, start + 2);
 }
 
 void Lexer::scan_token() {
@@ -298,8 +306,9 @@ void Lexer::scan_unreadable() {
                                    [&](const Confusable& c) { return rest.starts_with(c.text); });
   if (known != confusables.end()) {
     at_ += known->text.size();
-    report(codes::bad_character, begin, at_,
-           fmt::format("`{}` is not a symbol of CSPM: {}", known->text, known->advice));
+    // Someone's typography, not a sign of binary data.
+    diagnostics_->report(codes::bad_character, span(begin, at_),
+                         fmt::format("`{}` is not a symbol of CSPM: {}", known->text, known->advice));
     return emit(TokenKind::error, begin, at_);
   }
   const auto is_odd = [](char c) {
@@ -326,7 +335,7 @@ void Lexer::close_bracket() {
 
 void Lexer::emit(TokenKind kind, std::size_t begin, std::size_t end, std::uint32_t value) {
   if (gap_.newline && !info(previous_).soaks_after && !info(kind).soaks_before) {
-    out_->tokens.push_back({TokenKind::newline, 0, span(gap_.newline_at, gap_.newline_at + 1)});
+    out_->tokens.push_back({TokenKind::newline, 0, span(gap_.begin, gap_.begin)});
     // A sequence cannot go on across a newline: forget `<` that nobody closed.
     open_sequences_.back() = 0;
   }

@@ -105,7 +105,8 @@ void Lexer::scan_property_word() {
   while (true) {
     while (is_alpha(peek())) words.push_back(text_[at_++]);
     std::size_t next = at_;
-    while (next < text_.size() && (text_[next] == ' ' || text_[next] == '-')) ++next;
+    if (peek() == '-') ++next;
+    while (next < text_.size() && text_[next] == ' ') ++next;
     if (next == at_ || next >= text_.size() || !is_alpha(text_[next])) break;
     words.push_back(' ');
     at_ = next;

@@ -28,15 +28,16 @@ class Lexer {
   Stop run();
 
  private:
-  struct Gap {             // what lay between the previous token and this one
-    bool blank = false;    // anything at all
-    bool newline = false;  // a newline outside block comments
-    std::size_t newline_at = 0;
+  struct Gap {               // what lay between the previous token and this one
+    std::size_t begin = 0;
+    bool blank = false;      // anything at all
+    bool newline = false;    // a newline outside block comments
   };
 
   // lexer.cpp
   void skip_gap();
   bool skip_block_comment();
+  void report_unclosed_comment(std::size_t start);
   void scan_token();
   void scan_word();
   void scan_symbol();

@@ -26,31 +26,16 @@ bool starts_declaration(K kind) {
   }
 }
 
-/// Whether the line that begins at `t` has a `=` or `::` outside brackets.
-bool looks_like_definition(const Token* t) {
-  int depth = 0;
-  for (; t->kind != K::newline && t->kind != K::end_of_file && depth >= 0; ++t) {
-    switch (t->kind) {
-      case K::define:
-      case K::annotate:
-        if (depth == 0) return true;
-        break;
-      case K::left_paren:
-      case K::left_brace:
-      case K::left_sequence:
-        ++depth;
-        break;
-      case K::right_paren:
-      case K::right_brace:
-      case K::right_sequence:
-        --depth;
-        break;
-      case K::let_:
-      case K::within_:
-        return false;
-      default:
-        break;
-    }
+bool same_line(const Token& a, const Token& b, const base::SourceMap& sources) {
+  return sources.file_of(a.span.end) == sources.file_of(b.span.begin) &&
+         sources.text({a.span.end, b.span.begin}).find('\n') == std::string_view::npos;
+}
+
+/// Whether the line of text that begins at `t` has a `=` or `::`, and no `let` or `within` before it.
+bool looks_like_definition(const Token* t, const base::SourceMap& sources) {
+  for (const Token* begin = t; t == begin || same_line(*(t - 1), *t, sources); ++t) {
+    if (t->kind == K::define || t->kind == K::annotate) return true;
+    if (t->kind == K::let_ || t->kind == K::within_ || t->kind == K::end_of_file) return false;
   }
   return false;
 }
@@ -68,19 +53,31 @@ const Token* recover(const Token* first, const Token* where, bool in_timed_secti
            sources.position(t->span.begin).column <= column;
   };
   int lets = 0;
-  for (const Token* t = first; t < where; ++t) lets += change_of_lets(t->kind);
+  const auto begins_next = [&](const Token* t) {
+    return (starts_declaration(t->kind) || looks_like_definition(t, sources)) &&
+           (lets <= 0 || is_outside(t));
+  };
+  const Token* line = first_of_line(first, where, sources);
+  for (const Token* t = first; t < line; ++t) lets += change_of_lets(t->kind);
+  if (line != first && begins_next(line)) return line;
+  for (const Token* t = line; t < where; ++t) lets += change_of_lets(t->kind);
+
   int braces = 0;
   for (const Token* t = where; t->kind != K::end_of_file; ++t) {
     lets += change_of_lets(t->kind);
     if (t->kind == K::left_brace) ++braces;
     if (t->kind == K::right_brace && --braces < 0 && in_timed_section) return t;
-    if (t->kind != K::newline) continue;
-    const Token* next = t + 1;
-    if (!starts_declaration(next->kind) && !looks_like_definition(next)) continue;
-    if (lets <= 0 || is_outside(next)) return t;
+    if (t > where && !same_line(*(t - 1), *t, sources) && begins_next(t)) return t;
   }
   while (where->kind != K::end_of_file) ++where;
   return where;
+}
+
+const Token* first_of_line(const Token* first, const Token* where,
+                           const base::SourceMap& sources) {
+  const Token* t = where;
+  while (t > first && same_line(*(t - 1), *t, sources)) --t;
+  return t;
 }
 
 }  // namespace perentie::parser

@@ -33,10 +33,23 @@ void ScriptParser::parse_item() {
   const Token* first = at_;
   const DeclarationBuilder::Mark mark = builder_.declarations.mark();
   const std::size_t errors = context_.diagnostics.error_count();
+  const std::size_t blocks = blocks_.size();
   const std::optional<const Token*> failure = attempt(builder_, first, [this] { read_item(); });
-  if (failure) at_ = recover(first, *failure, in_timed_section(), context_.sources);
+  if (failure) {
+    at_ = blocks_.size() > blocks && first->kind == K::timed_
+              ? after_broken_head(*failure)
+              : recover(first, *failure, in_timed_section(), context_.sources);
+  }
   // At the end of a block `mark` may lie behind what is left, and nothing is dropped.
   if (failure || context_.diagnostics.error_count() > errors) builder_.declarations.drop(mark);
+}
+
+// Into the section, if its `{` follows on the line.
+const Token* ScriptParser::after_broken_head(const Token* failure) const {
+  while (failure->kind != K::newline && failure->kind != K::end_of_file) {
+    if ((failure++)->kind == K::left_brace) break;
+  }
+  return failure;
 }
 
 void ScriptParser::read_item() {

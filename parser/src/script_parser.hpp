@@ -35,6 +35,7 @@ class ScriptParser {
   void read_item();
   void read_print();
   void require_end() const;
+  const Token* after_broken_head(const Token* failure) const;
   bool in_timed_section() const;
 
   Block& push_block(Block::Kind kind);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "perentie/parser/diagnostic_codes.hpp"
+#include "recovery.hpp"
 
 namespace perentie::parser {
 namespace {
@@ -79,6 +81,7 @@ struct Scene {
   const Token* where;     // the unexpected token
   const Token* previous;  // null at the start of the declaration
   const Token* before;    // the one before that, or null
+  const Token* line;      // the first token on the line of `where`
 
   bool expects(std::string_view text) const { return error.expected == text; }
   bool after(K kind) const { return previous != nullptr && previous->kind == kind; }
@@ -115,8 +118,19 @@ constexpr Advice all_advice[] = {
      "inequality is written `!=`"},
     {[](const Scene& s) { return s.found(K::define) && s.after(K::define); },
      "equality is written `==`, without a blank"},
-    {[](const Scene& s) { return s.found(K::define); },
+    {[](const Scene& s) {
+       return s.found(K::define) && s.begins_with(K::assert_) && s.before != nullptr &&
+              s.before->kind == K::left_bracket;
+     },
+     "the signs of refinement are `[T=`, `[F=`, `[FD=`, `[V=`, `[VD=`, `[R=` and `[RD=`"},
+    {[](const Scene& s) {
+       return s.found(K::define) && s.previous == s.first && is_keyword(s.first->kind);
+     },
+     "the word is reserved and cannot be defined"},
+    {[](const Scene& s) { return s.found(K::define) && s.line == s.first; },
      "`=` makes a definition; equality is written `==`"},
+    {[](const Scene& s) { return s.found(K::annotate) && s.after(K::identifier); },
+     "a qualified name has no blanks around `::`"},
     {[](const Scene& s) {
        return s.found(K::right_paren) && s.after(K::left_paren) && s.begins_with(K::module_);
      },
@@ -141,7 +155,9 @@ constexpr Advice all_advice[] = {
     {[](const Scene& s) { return s.after(K::character) && s.found(K::character); },
      "a text of several characters is a string: `\"..\"`"},
     {[](const Scene& s) { return s.expects("`else`"); }, "every `if` has an `else`"},
-    {[](const Scene& s) { return s.expects("a name") && is_keyword(s.where->kind); },
+    {[](const Scene& s) {
+       return s.expects("a name") && is_keyword(s.where->kind) && s.where != s.line;
+     },
      "the word is reserved"},
     {[](const Scene& s) {
        return s.found(K::right_sequence) && s.expects("an expression") && s.after(K::left_sequence);
@@ -222,8 +238,11 @@ void report_syntax_error(const SyntaxError& error, const Token* first, bool in_l
                          BuildContext& context) {
   const Token* where = error.where;
   const Scene scene{error, first, where, where > first ? where - 1 : nullptr,
-                    where > first + 1 ? where - 2 : nullptr};
+                    where > first + 1 ? where - 2 : nullptr,
+                    first_of_line(first, where, context.sources)};
   if (scene.found(K::error) || scene.after(K::error)) return;
+  // Reading goes on at the line of an error that ended what began before it.
+  if (std::exchange(context.last_error, where) == where) return;
 
   const std::string_view block = block_name(where->kind);
   if (in_let && !block.empty()) {
@@ -260,7 +279,14 @@ void report_syntax_error(const SyntaxError& error, const Token* first, bool in_l
                         is_closing(where->kind) || is_keyword(where->kind) ||
                         scene.found(K::define);
   if (open != nullptr && runs_out && open != scene.previous) {
-    diagnostic.notes.push_back({open->span, fmt::format("{} is still open", describe(open->kind))});
+    diagnostic.notes.push_back(
+        {open->span, fmt::format("{} is still open", describe(open->kind))});
+  } else if (scene.line != first && info((scene.line - 1)->kind).soaks_after &&
+             (where == scene.line || scene.found(K::define) || scene.found(K::annotate))) {
+    const Token& last = *(scene.line - 1);
+    diagnostic.notes.push_back(
+        {last.span, fmt::format("the line before ends with {} and so goes on here",
+                                describe_found(last, context.sources))});
   }
 }
 

@@ -88,6 +88,7 @@ struct BuildContext {
   const TokenStream& stream;
   std::uint32_t max_depth;
   std::uint32_t depth = 0;  ///< open runs and prefix operators on the way to the current token
+  const Token* last_error = nullptr;  ///< the token of the last syntax error
   Scratch scratch{};
 
   /// One level deeper; throws TooDeep past the limit.

@@ -29,7 +29,7 @@ inline const QualifiedNameRule qualified_name = "a name";
 inline const LocalDeclarationsRule local_declarations = "a declaration";
 inline const AnnotatedTypeRule annotated_type = "a type";
 /// `[not] P [T= Q` and so on, without the word `assert`.
-inline const AssertionRule assertion = "an assertion";
+inline const AssertionRule assertion = "a process";
 
 BOOST_SPIRIT_DECLARE(ExpressionRule)
 BOOST_SPIRIT_DECLARE(ExpressionListRule)
