@@ -29,8 +29,9 @@ MessageMapper::MessageMapper(const Mapping& mapping, const EventMap* event_map)
     compiled.rule = &rule;
     if (!rule.topic) rules_without_topic_.push_back(static_cast<std::uint32_t>(rules_.size()));
     for (const FieldPath& path : rule.has) compiled.has.push_back(finder_.slot_for(path));
-    for (const MappedValue& value : rule.values)
+    for (const MappedValue& value : rule.values) {
       compiled.values.push_back(finder_.slot_for(value.field));
+    }
     rules_.push_back(std::move(compiled));
   }
 }
@@ -203,10 +204,8 @@ MessageMapper::Outcome MessageMapper::fall_back(const Fallback& fallback, const 
       return Outcome::ignored;
     case Fallback::Action::null:
       return Outcome::null;
-    case Fallback::Action::keep: {
-      const MappedValue plain{value.name, value.field, {}, value.integer, {}, {}, {}, false};
-      return append_plain(plain, field, out);
-    }
+    case Fallback::Action::keep:
+      return append_plain(value, field, out);
     case Fallback::Action::use:
       out += fallback.text;
       return Outcome::text;

@@ -44,8 +44,17 @@ std::string why_refused(const RunResult& result) {
   return "the model does not permit it here";
 }
 
+// What comes from a trace may hold characters that a terminal would obey.
+std::string printable(std::string_view value) {
+  std::string text(value);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  }
+  return text;
+}
+
 void append_line(std::string& text, std::string_view label, std::string_view value) {
-  text += fmt::format("  {:<11}{}\n", label, value);
+  text += fmt::format("  {:<11}{}\n", label, printable(value));
 }
 
 void append_violation(std::string& text, const RunResult& result, const RunSubject& subject) {

@@ -106,6 +106,10 @@ std::size_t byte_order_mark(std::string_view text) {
 }
 
 std::optional<EventFault> find_event_fault(std::string_view event) {
+  // Nearly all events are only words and dots.
+  const bool plain =
+      std::all_of(event.begin(), event.end(), [](char c) { return is_word(c) || c == '.'; });
+  if (plain && !event.empty()) return std::nullopt;
   const auto control = std::find_if(event.begin(), event.end(), is_control);
   if (control != event.end()) {
     return EventFault{static_cast<std::size_t>(control - event.begin()),

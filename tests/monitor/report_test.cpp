@@ -140,6 +140,12 @@ TEST(ReportTest, TextOfATraceThatCannotBeRead) {
       << text;
 }
 
+TEST(ReportTest, NothingInATraceCommandsTheTerminal) {
+  const std::string text =
+      to_text(run("{\"event\":\"a\\u001b[31m\"}\n", Mode::strict), subject(Mode::strict));
+  EXPECT_NE(text.find("  event      a?[31m, number 1"), std::string::npos) << text;
+}
+
 TEST(ReportTest, LongListsAreCut) {
   std::string edges;
   for (int i = 10; i < 40; ++i) edges += "0 e." + std::to_string(i) + " 0; ";
