@@ -1,1 +1,76 @@
-int main() {}
+// The `perentie` program: reads the command line and runs one subcommand.
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "version.hpp"
+
+namespace perentie::cli {
+namespace {
+
+constexpr const char* description =
+    "perentie: machine-readable CSP (CSPM) without FDR.\n"
+    "Evaluates models, builds their labelled transition systems, and monitors running systems and\n"
+    "logs against them.";
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  perentie monitor corpus/rover/pass.yaml\n"
+    "  perentie monitor --model m.csp --process SYSTEM --trace log.jsonl --mode strict\n"
+    "  perentie lts m.csp -p 'SYSTEM \\ {|internal|}' -o system.aut\n"
+    "  perentie eval m.csp -e 'card(Events)'\n"
+    "\n"
+    "Exit codes: 0 it holds, conforms or is done; 1 it does not; 2 wrong usage or configuration;\n"
+    "3 the model has errors; 4 a budget ran out (no verdict); 5 input or output failed; 130\n"
+    "interrupted.";
+
+ExitCode run(int argc, char** argv) {
+  CLI::App program{description, "perentie"};
+  program.footer(footer);
+  program.require_subcommand(1);
+  program.set_version_flag("--version", fmt::format("perentie {}", version));
+  std::string colour = "auto";
+  bool quiet = false;
+  program.add_option("--color", colour, "Colour in messages: auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}))
+      ->capture_default_str();
+  program.add_flag("-q,--quiet", quiet, "No notes and no progress on standard error");
+  program.fallthrough();
+
+  std::vector<Command> commands;
+  for (const auto add : {add_monitor, add_lts, add_eval, add_dump}) {
+    commands.push_back(add(program));
+  }
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool is_success = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+    program.exit(error);  // prints the help, the version or the complaint
+    return is_success ? ExitCode::ok : ExitCode::usage;
+  }
+  Console console;
+  console.set_colour(colour == "auto"     ? ColourChoice::automatic
+                     : colour == "always" ? ColourChoice::always
+                                          : ColourChoice::never);
+  console.set_quiet(quiet);
+  catch_interrupts();
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    const ExitCode code = command.run(console);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      console.error("standard output could not be written");
+      return ExitCode::io_error;
+    }
+    return interrupted().load() ? ExitCode::interrupted : code;
+  }
+  return ExitCode::usage;
+}
+
+}  // namespace
+}  // namespace perentie::cli
+
+int main(int argc, char** argv) { return static_cast<int>(perentie::cli::run(argc, argv)); }

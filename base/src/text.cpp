@@ -35,7 +35,8 @@ std::string with_thousands(std::uint64_t number) {
 std::vector<std::string_view> nearest_words(std::string_view word,
                                             std::span<const std::string_view> candidates,
                                             std::size_t limit) {
-  const std::size_t furthest = std::max<std::size_t>(1, word.size() / 3);
+  // Of very short words only the case may differ: any two are one edit apart.
+  const std::size_t furthest = word.size() < 3 ? 0 : std::max<std::size_t>(1, word.size() / 3);
   std::vector<std::pair<std::size_t, std::string_view>> near;
   for (const std::string_view candidate : candidates) {
     const std::size_t longer = std::max(word.size(), candidate.size());

@@ -35,7 +35,8 @@ struct Script::Impl {
 
   bool prepare(base::Diagnostics& diagnostics);
   void load_prelude(base::Diagnostics& diagnostics);
-  parser::ExprId parse(std::string_view text, base::Diagnostics& diagnostics);
+  parser::ExprId parse(std::string_view text, const std::string& origin,
+                       base::Diagnostics& diagnostics);
 };
 
 void Script::Impl::load_prelude(base::Diagnostics& diagnostics) {
@@ -71,9 +72,10 @@ bool Script::Impl::prepare(base::Diagnostics& diagnostics) {
 }
 
 // Parses and resolves an expression in the scope of the script; none if it is wrong.
-parser::ExprId Script::Impl::parse(std::string_view text, base::Diagnostics& diagnostics) {
+parser::ExprId Script::Impl::parse(std::string_view text, const std::string& origin,
+                                   base::Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.error_count();
-  const auto file = sources.add("<expression>", std::string(text));
+  const auto file = sources.add(origin, std::string(text));
   if (!file) return {};
   const parser::ExprId expr = parser::parse_expression(*file, tree, sources, diagnostics, options);
   if (!expr || diagnostics.error_count() > errors) return {};
@@ -101,8 +103,9 @@ void Script::set_limits(const base::Limits& limits) { impl_->machine->set_limits
 std::optional<base::LimitReached> Script::limit() const { return impl_->machine->limit(); }
 
 std::optional<std::string> Script::evaluate(std::string_view expression,
-                                            base::Diagnostics& diagnostics) {
-  const parser::ExprId expr = impl_->parse(expression, diagnostics);
+                                            base::Diagnostics& diagnostics,
+                                            const std::string& origin) {
+  const parser::ExprId expr = impl_->parse(expression, origin, diagnostics);
   if (!expr) return std::nullopt;
   const Address entry = impl_->lowering->expression(expr);
   impl_->machine->extend_globals();
@@ -111,9 +114,9 @@ std::optional<std::string> Script::evaluate(std::string_view expression,
   return show_value(impl_->machine->show_context(), *value);
 }
 
-std::optional<ProcId> Script::process(std::string_view expression,
-                                      base::Diagnostics& diagnostics) {
-  const parser::ExprId expr = impl_->parse(expression, diagnostics);
+std::optional<ProcId> Script::process(std::string_view expression, base::Diagnostics& diagnostics,
+                                      const std::string& origin) {
+  const parser::ExprId expr = impl_->parse(expression, origin, diagnostics);
   if (!expr) return std::nullopt;
   const Address entry = impl_->lowering->process_expression(expr);
   impl_->machine->extend_globals();
@@ -141,6 +144,14 @@ std::vector<std::string> Script::process_names() const {
     const bool is_definition =
         symbol.kind == SymbolKind::constant || symbol.kind == SymbolKind::function;
     if (is_definition && symbol.is_process && symbol.decl) names.push_back(symbol.qualified);
+  }
+  return names;
+}
+
+std::vector<std::string> Script::compressions_taken_as_identity() const {
+  std::vector<std::string> names;
+  for (const Builtin builtin : impl_->machine->compressions_seen()) {
+    names.emplace_back(info(builtin).name);
   }
   return names;
 }

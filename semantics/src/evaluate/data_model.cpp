@@ -50,6 +50,14 @@ std::vector<ValueId> DataModel::incomplete_path(ValueId value) const {
   return path;
 }
 
+bool DataModel::is_complete(ValueId value) const {
+  for (;;) {
+    if (lacks_field(value)) return false;
+    if (values_.kind(value) != ValueKind::dot) return true;
+    value = values_.items(value).back();
+  }
+}
+
 bool DataModel::is_event(ValueId value) const {
   ValueId head = value;
   if (values_.kind(value) == ValueKind::dot) {
@@ -70,6 +78,12 @@ std::vector<ValueId> DataModel::components(ValueId value) const {
 }
 
 ValueId DataModel::append(ValueId left, ValueId right) const {
+  const std::uint64_t key = (std::uint64_t{left.bits} << 32U) | right.bits;
+  if (const auto known = appended_.find(key); known != appended_.end()) return known->second;
+  return appended_[key] = append_all(left, right);
+}
+
+ValueId DataModel::append_all(ValueId left, ValueId right) const {
   for (const ValueId component : components(right)) {
     left = append_component(left, component, true);
   }
@@ -184,7 +198,15 @@ std::vector<ValueId> DataModel::components_after(ValueId set, std::span<const Va
   return distinct;
 }
 
-std::vector<DataModel::Extension> DataModel::extensions(ValueId partial, bool all_remaining) const {
+const std::vector<DataModel::Extension>& DataModel::extensions(ValueId partial,
+                                                               bool all_remaining) const {
+  auto& known = extensions_[all_remaining ? 1 : 0];
+  if (const auto found = known.find(partial.bits); found != known.end()) return found->second;
+  return known[partial.bits] = find_extensions(partial, all_remaining);
+}
+
+std::vector<DataModel::Extension> DataModel::find_extensions(ValueId partial,
+                                                             bool all_remaining) const {
   std::vector<Extension> result;
   if (!all_remaining) {
     for (const ValueId component : next_components(partial)) {

@@ -27,7 +27,7 @@ class DataModel {
 
   bool has_data(SymbolId symbol) const { return program_.field_types.contains(symbol.value); }
   /// Nothing is missing: not a channel or constructor that still lacks a field.
-  bool is_complete(ValueId value) const { return incomplete_path(value).empty(); }
+  bool is_complete(ValueId value) const;
   /// A complete application of a channel.
   bool is_event(ValueId value) const;
 
@@ -41,8 +41,8 @@ class DataModel {
     ValueId component;
   };
   /// The values that the next field can take; with `all_remaining`, all missing fields together as one
-  /// dotted value (4.3.5). In the order of sets.
-  std::vector<Extension> extensions(ValueId partial, bool all_remaining) const;
+  /// dotted value (4.3.5). In the order of sets. The result lives as long as the model.
+  const std::vector<Extension>& extensions(ValueId partial, bool all_remaining) const;
   /// All complete values that begin with `partial` (3.6.5).
   std::vector<ValueId> productions(ValueId partial) const;
 
@@ -51,6 +51,8 @@ class DataModel {
   std::vector<ValueId> decompose(ValueId set) const;
 
  private:
+  ValueId append_all(ValueId left, ValueId right) const;
+  std::vector<Extension> find_extensions(ValueId partial, bool all_remaining) const;
   std::vector<ValueId> incomplete_path(ValueId value) const;
   bool lacks_field(ValueId value) const;
   bool is_application(ValueId value) const;
@@ -65,6 +67,10 @@ class DataModel {
   const Resolution& resolution_;
   const Program& program_;
   std::unordered_map<std::uint32_t, std::vector<ValueId>> fields_;  // by symbol
+
+  // What was computed before: values are hash-consed, and models ask for the same again and again.
+  mutable std::unordered_map<std::uint64_t, ValueId> appended_;  // by both operands
+  mutable std::unordered_map<std::uint32_t, std::vector<Extension>> extensions_[2];  // by value
 };
 
 }  // namespace perentie::semantics

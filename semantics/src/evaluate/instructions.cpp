@@ -75,9 +75,8 @@ void Machine::step(Instruction in) {
     case Op::make_map: make_map(in.b); break;
     case Op::make_range_set: make_range_set(in.b != 0); break;
     case Op::dot: {
-      const std::vector<ValueId> items = top_values(in.b);
-      ValueId value = items.back();
-      for (std::size_t i = items.size() - 1; i > 0; --i) value = data_.append(items[i - 1], value);
+      ValueId value = value_at(0);
+      for (std::uint32_t i = 1; i < in.b; ++i) value = data_.append(value_at(i), value);
       replace(in.b, value);
       break;
     }
@@ -373,10 +372,10 @@ void Machine::field_begin(bool last, bool has_set) {
   if (has_set) {
     const ValueId set = require_set(value_at(0));
     for (const ValueId component : elements_of(values_, set, "offer the inputs of")) {
-      iterator.extensions.push_back({data_.append(partial, component), component});
+      iterator.restricted.push_back({data_.append(partial, component), component});
     }
   } else {
-    iterator.extensions = data_.extensions(partial, last);
+    iterator.extensions = &data_.extensions(partial, last);
   }
   iterators_.push_back(std::move(iterator));
   operands_.resize(operands_.size() - (has_set ? 2 : 1));
@@ -384,12 +383,14 @@ void Machine::field_begin(bool last, bool has_set) {
 
 void Machine::field_next(Address done) {
   Iterator& iterator = iterators_.back();
-  if (iterator.next == iterator.extensions.size()) {
+  const auto& extensions =
+      iterator.extensions != nullptr ? *iterator.extensions : iterator.restricted;
+  if (iterator.next == extensions.size()) {
     iterators_.pop_back();
     pc_ = done;
     return;
   }
-  const DataModel::Extension& extension = iterator.extensions[iterator.next++];
+  const DataModel::Extension& extension = extensions[iterator.next++];
   push(extension.value);
   push(extension.component);
 }

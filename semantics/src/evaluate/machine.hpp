@@ -88,7 +88,8 @@ class Machine final : public FunctionNames, public CallUnfolder {
     enum class Kind : std::uint8_t { set, sequence, field } kind;
     ValueId collection;
     std::size_t next = 0;
-    std::vector<DataModel::Extension> extensions = {};
+    const std::vector<DataModel::Extension>* extensions = nullptr;  // of an unrestricted field
+    std::vector<DataModel::Extension> restricted = {};              // of one with a set
   };
   std::optional<ValueId> run_in(Address entry, Word frame, base::Diagnostics& diagnostics);
   bool execute();          // until the run ends; false: it failed

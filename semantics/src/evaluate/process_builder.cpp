@@ -18,6 +18,7 @@ std::string ProcessBuilder::show_event(EventId event) const {
 }
 
 EventId ProcessBuilder::event(ValueId value) {
+  if (const EventId known = events_.find(value)) return known;
   if (!data_.is_event(value)) {
     const std::string text = brief(values_, resolution_, value);
     const bool is_partial = !data_.is_complete(value);

@@ -251,11 +251,30 @@ void Lowering::infix_chain(ExprId expr) {
   }
   std::vector<ExprId> spine;
   for (ExprId e = expr; op_of(e) != nullptr; e = op_of(e)->left) spine.push_back(e);
-  infix_left(op_of(spine.back())->op, op_of(spine.back())->left);
-  for (auto e = spine.rbegin(); e != spine.rend(); ++e) {
-    if (e != spine.rbegin()) span_ = tree_.exprs[*e].span;
-    infix_right(*op_of(*e));
+  auto next = spine.rbegin();
+  if (const auto* items = literal_sequence(*op_of(*next))) {
+    // `<e1, .., en>^s` is n cells in front of s.
+    for (const ExprId item : tree_.list(items->items)) lazy(item);
+    lazy(op_of(*next)->right);
+    span_ = tree_.exprs[*next].span;
+    emit(Op::make_list, items->items.count);
+    ++next;
+  } else {
+    infix_left(op_of(*next)->op, op_of(*next)->left);
   }
+  for (; next != spine.rend(); ++next) {
+    span_ = tree_.exprs[*next].span;
+    infix_right(*op_of(*next));
+  }
+}
+
+// The left operand of a `^`, if it is a sequence written out.
+const parser::CollectionExpr* Lowering::literal_sequence(const parser::InfixExpr& infix) const {
+  if (infix.op != InfixOp::concat) return nullptr;
+  const auto* e = std::get_if<parser::CollectionExpr>(&tree_.exprs[infix.left].node);
+  const bool is_literal =
+      e != nullptr && e->kind == Collection::sequence && e->statements.empty();
+  return is_literal ? e : nullptr;
 }
 
 namespace {
@@ -464,10 +483,11 @@ void Lowering::range(const parser::RangeExpr& e) {
     strict_loop(statements, true, [&] {
       bounds();
       emit(Op::make_range_set, e.last ? 1 : 0);
-      emit(Op::acc_add_all);
+      emit(Op::acc_add);
     });
     span_ = span;
     emit(Op::acc_set);
+    emit(Op::call_builtin, static_cast<std::uint32_t>(Builtin::set_union_all), 1);
     return;
   }
   const auto sequence = [&] {

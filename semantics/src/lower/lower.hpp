@@ -121,6 +121,7 @@ class Lowering {
   void infix_chain(parser::ExprId expr);
   void infix_left(parser::InfixOp op, parser::ExprId left);
   void infix_right(const parser::InfixExpr& infix);
+  const parser::CollectionExpr* literal_sequence(const parser::InfixExpr& infix) const;
   std::vector<parser::ExprId> right_spine(parser::ExprId expr, parser::InfixOp op) const;
   void guard(parser::ExprId expr);
   void apply(parser::ExprId expr);

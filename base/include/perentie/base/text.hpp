@@ -13,7 +13,7 @@ namespace perentie::base {
 std::string with_thousands(std::uint64_t number);
 
 /// The candidates nearest to `word` by edit distance, best first, at most `limit`; none further away
-/// than a third of the word's length (at least one edit). The source of every "did you mean".
+/// than a third of the word's length. The source of every "did you mean".
 std::vector<std::string_view> nearest_words(std::string_view word,
                                             std::span<const std::string_view> candidates,
                                             std::size_t limit = 3);

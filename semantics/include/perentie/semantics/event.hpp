@@ -35,6 +35,11 @@ class EventTable {
 
   /// The event of a complete channel value.
   EventId intern(ValueId value);
+  /// The same if it was interned before, else none.
+  EventId find(ValueId value) const {
+    const auto found = events_.find(value.bits);
+    return found == events_.end() ? EventId{} : found->second;
+  }
   /// The channel value of an event other than τ and ✓.
   ValueId value(EventId event) const { return values_[event.value]; }
   std::size_t size() const { return values_.size(); }

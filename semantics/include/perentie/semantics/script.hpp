@@ -39,10 +39,13 @@ class Script {
   /// Which budget ended the last evaluation, if one did.
   std::optional<base::LimitReached> limit() const;
 
-  /// The value of an expression in the script's scope, as FDR prints it.
-  std::optional<std::string> evaluate(std::string_view expression, base::Diagnostics& diagnostics);
+  /// The value of an expression in the script's scope, as FDR prints it. `origin` is what messages
+  /// call the text.
+  std::optional<std::string> evaluate(std::string_view expression, base::Diagnostics& diagnostics,
+                                      const std::string& origin = "<expression>");
   /// The process that an expression stands for.
-  std::optional<ProcId> process(std::string_view expression, base::Diagnostics& diagnostics);
+  std::optional<ProcId> process(std::string_view expression, base::Diagnostics& diagnostics,
+                                const std::string& origin = "<expression>");
 
   /// The transitions of a process by the step rules. The script must outlive the system.
   TermSystem terms(ProcId initial, base::Diagnostics& diagnostics);
@@ -54,6 +57,9 @@ class Script {
   /// The names of the definitions whose value is a process, in order of definition, without
   /// parameters. For messages and completion.
   std::vector<std::string> process_names() const;
+
+  /// The compressions that were evaluated so far: the step rules take them as the identity.
+  std::vector<std::string> compressions_taken_as_identity() const;
 
   const parser::SyntaxTree& tree() const;
   /// The core code as text, for `dump --phase core`.

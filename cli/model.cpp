@@ -1,0 +1,88 @@
+#include "model.hpp"
+
+#include <fmt/format.h>
+
+namespace perentie::cli {
+namespace {
+
+constexpr base::DiagnosticCode unreadable_file{"I001", base::Severity::error,
+                                               "a file cannot be read"};
+
+}  // namespace
+
+void BudgetOptions::add_to(CLI::App& app) {
+  app.add_option("--max-states", max_states, "Stop after this many states (inconclusive)")
+      ->check(CLI::PositiveNumber)
+      ->group("Budgets");
+  app.add_option("--max-memory", max_memory, "Stop at about this much memory, such as 2GB")
+      ->transform(CLI::AsSizeValue(false))
+      ->group("Budgets");
+  app.add_option("--timeout", timeout, "Stop after this many seconds")
+      ->check(CLI::PositiveNumber)
+      ->group("Budgets");
+}
+
+base::Limits BudgetOptions::limits() const {
+  base::Limits limits;
+  if (max_states > 0) limits.max_states = max_states;
+  if (max_memory > 0) limits.max_memory_bytes = max_memory;
+  if (timeout > 0) {
+    limits.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout * 1000));
+  }
+  limits.cancelled = &interrupted();
+  return limits;
+}
+
+std::optional<base::FileId> Input::read(const std::string& path) {
+  base::FileText file = base::read_file(path);
+  if (file.text) {
+    if (const auto id = sources.add(path, std::move(*file.text))) return id;
+    file.error = "it is too large";
+  }
+  diagnostics.report(unreadable_file, fmt::format("cannot read `{}`: {}", path, file.error));
+  return std::nullopt;
+}
+
+std::unique_ptr<semantics::Script> load_script(const std::string& path, Input& input,
+                                               Console& console, ExitCode& code) {
+  const auto file = input.read(path);
+  std::unique_ptr<semantics::Script> script;
+  if (file) script = semantics::Script::load(*file, input.sources, input.diagnostics);
+  console.print(input.diagnostics, input.sources);
+  code = file ? ExitCode::model_error : ExitCode::io_error;
+  return script;
+}
+
+std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string& process,
+                                    const std::string& origin, const base::Limits& limits,
+                                    Input& input, Console& console, ExitCode& code) {
+  code = ExitCode::model_error;
+  script.set_limits(limits);
+  const std::optional<semantics::ProcId> initial =
+      script.process(process, input.diagnostics, origin);
+  if (!initial) {
+    console.print(input.diagnostics, input.sources);
+    if (const auto limit = script.limit()) {
+      console.error(fmt::format("inconclusive: {} while `{}` was evaluated",
+                                base::describe(*limit), process));
+      code = ExitCode::inconclusive;
+    }
+    return std::nullopt;
+  }
+  semantics::TermSystem terms = script.terms(*initial, input.diagnostics);
+  lts::ExploreOptions options{.limits = limits};
+  options.progress = [&console](const lts::ExploreProgress& p) { console.progress(p); };
+  ProcessLts result{lts::explore(terms, options), {}};
+  console.clear_progress();
+  result.limit = result.exploration.limit ? result.exploration.limit : terms.limit();
+  console.print(input.diagnostics, input.sources);
+  if (result.exploration.failed && !result.limit) return std::nullopt;
+  for (const std::string& compression : script.compressions_taken_as_identity()) {
+    console.note(fmt::format("`{}` is not applied yet: no answer depends on it, the number of "
+                             "states does",
+                             compression));
+  }
+  return result;
+}
+
+}  // namespace perentie::cli

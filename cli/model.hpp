@@ -1,0 +1,57 @@
+// What the subcommands share: loading a script, budgets from options, and making an LTS.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "console.hpp"
+#include "exit_codes.hpp"
+#include "perentie/base/diagnostic.hpp"
+#include "perentie/lts/explore.hpp"
+#include "perentie/semantics/script.hpp"
+
+namespace perentie::cli {
+
+/// The budgets of a run, as options.
+struct BudgetOptions {
+  std::uint64_t max_states = 0;   ///< 0: no limit
+  std::uint64_t max_memory = 0;   ///< bytes; 0: no limit
+  double timeout = 0;             ///< seconds; 0: no limit
+
+  void add_to(CLI::App& app);
+  base::Limits limits() const;
+};
+
+/// The texts and messages of one run of the program.
+struct Input {
+  base::SourceMap sources;
+  base::Diagnostics diagnostics;
+
+  /// Reads a file into the sources; an I001 diagnostic if it cannot be read.
+  std::optional<base::FileId> read(const std::string& path);
+};
+
+/// Loads a script. Null: `code` says what to exit with, and the reason was printed.
+std::unique_ptr<semantics::Script> load_script(const std::string& path, Input& input,
+                                               Console& console, ExitCode& code);
+
+/// A process as an explicit LTS, with the terms that its states are.
+struct ProcessLts {
+  lts::Exploration<semantics::ProcId> exploration;
+  std::optional<base::LimitReached> limit;  ///< of exploration or evaluation
+
+  const lts::Lts& lts() const { return exploration.lts; }
+};
+
+/// Evaluates and explores. Nothing: `code` says what to exit with, and the reason was printed. A
+/// budget that ran out is a result, not a failure. `origin` is where the expression was written.
+std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string& process,
+                                    const std::string& origin, const base::Limits& limits,
+                                    Input& input, Console& console, ExitCode& code);
+
+}  // namespace perentie::cli
