@@ -203,7 +203,9 @@ TEST(ExploreTest, ReportsProgressAtItsLeisure) {
     const ExploreProgress& p = reports[i];
     EXPECT_LE(p.states, result.states.size());
     EXPECT_LE(p.frontier, p.states);
-    EXPECT_LE(p.ply, 18U);
+    ASSERT_LT(p.states - p.frontier, result.states.size());
+    const Counters::State& next = result.states[p.states - p.frontier];
+    EXPECT_EQ(p.ply, next.a + next.b);
     EXPECT_GT(p.bytes, 0U);
     EXPECT_GE(p.seconds, i == 0 ? 0.1 : reports[i - 1].seconds + 0.1);
   }

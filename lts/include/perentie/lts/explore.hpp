@@ -27,7 +27,7 @@ namespace perentie::lts {
 struct ExploreProgress {
   std::uint64_t states = 0;       ///< found so far
   std::uint64_t transitions = 0;  ///< computed so far, duplicates included
-  std::uint64_t ply = 0;          ///< distance from the initial state of the states in work
+  std::uint64_t ply = 0;          ///< distance of the states in work from the initial state
   std::uint64_t frontier = 0;     ///< states found whose transitions are still to be computed
   std::uint64_t bytes = 0;        ///< held by the exploration
   double seconds = 0;             ///< since it began
@@ -177,10 +177,6 @@ class Explorer {
   /// Adds the row of the next state, whose successors are [begin, end). False if there are too many
   /// states.
   bool add_row(std::size_t begin, std::size_t end) {
-    if (rows_.row_count() == ply_end_) {
-      ply_end_ = visited_.size();
-      ++ply_;
-    }
     for (std::size_t i = begin; i < end; ++i) {
       const auto target = visited_.add(std::move(successors_[i].target), hashes_[i]);
       if (!target) {
@@ -191,6 +187,10 @@ class Explorer {
     }
     rows_.end_row();
     fired_ += end - begin;
+    if (rows_.row_count() == ply_end_) {
+      ply_end_ = visited_.size();
+      ++ply_;
+    }
     return true;
   }
 
@@ -218,8 +218,8 @@ class Explorer {
   std::vector<std::size_t> row_ends_;      // where the successors of each end
   std::vector<std::uint64_t> hashes_;      // of the successors
   std::uint64_t fired_ = 0;
-  std::size_t ply_end_ = 1;
-  std::uint64_t ply_ = 0;
+  std::uint64_t ply_ = 0;    // of the next state without a row
+  std::size_t ply_end_ = 1;  // the first state of the ply after it
   double last_report_ = 0;
   std::optional<base::LimitReached> limit_;
   bool failed_ = false;
