@@ -53,7 +53,7 @@ void Lexer::scan_print() {
   std::size_t begin = std::min(text_.find_first_not_of(blanks, at_), line_end);
   std::size_t end = line_end;
   while (end > begin && blanks.find(text_[end - 1]) != std::string_view::npos) --end;
-  at_ = line_end;
+  at_ = end;
   emit(TokenKind::print_, begin, end, intern(text_.substr(begin, end - begin)));
 }
 

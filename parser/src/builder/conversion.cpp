@@ -59,14 +59,12 @@ bool right_in_parentheses(const SyntaxTree& tree, ExprId node, ExprId right) {
 
 PatternId Converter::pattern(ExprId e) {
   refused_ = false;
-  const PatternId p = convert(e);
-  acquit_within(at(e).span);
-  return p;
+  return convert(e);
 }
 
 PatternId Converter::refuse(const base::DiagnosticCode& code, Span span, std::string message) {
   if (!refused_) context_->report(code, span, std::move(message));
-  refused_ = true;
+  refused_ = any_refused_ = true;
   return add(span, WildcardPattern{});
 }
 
@@ -77,7 +75,10 @@ PatternId Converter::convert(ExprId e) {
   return std::visit(
       base::overload{
           [&](const NameExpr& n) { return add(span, NamePattern{n.name}); },
-          [&](const WildcardExpr&) { return add(span, WildcardPattern{}); },
+          [&](const WildcardExpr&) {
+            acquit(e);
+            return add(span, WildcardPattern{});
+          },
           [&](const IntExpr& i) { return add(span, IntPattern{i.value}); },
           [&](const BoolExpr& b) { return add(span, BoolPattern{b.value}); },
           [&](const CharExpr& c) { return add(span, CharPattern{c.value}); },
@@ -131,6 +132,7 @@ PatternId Converter::convert_infix(ExprId e) {
         return refuse(codes::double_pattern_in_field, expr.span,
                       "`@@` cannot stand in a communication field");
       }
+      acquit(e);
       const PatternId left = convert(infix.left);
       const PatternId right = convert(infix.right);
       return add(expr.span, DoublePattern{left, right});
@@ -336,22 +338,19 @@ FieldList Converter::take_fields(ExprId communication) {
 // ---------------------------------------------------------------------------------------------
 // Suspects
 
+// Suspects are in the order of their ids; those who are acquitted leave an empty place.
 void Converter::acquit(ExprId e) {
-  const auto found = std::find(suspects_.rbegin(), suspects_.rend(), e);
-  if (found != suspects_.rend()) suspects_.erase(std::next(found).base());
-}
-
-// Suspects are made in the order of the text, so those within a stretch just read are the last
-// ones.
-void Converter::acquit_within(Span span) {
-  auto first = suspects_.end();
-  while (first != suspects_.begin() && at(*(first - 1)).span.begin >= span.begin) --first;
-  const auto inside = [&](ExprId e) { return at(e).span.end <= span.end; };
-  suspects_.erase(std::remove_if(first, suspects_.end(), inside), suspects_.end());
+  const auto found =
+      std::lower_bound(suspects_.begin(), suspects_.end(), e,
+                       [](const Suspect& suspect, ExprId id) { return suspect.expr < id; });
+  if (found != suspects_.end() && found->expr == e) found->acquitted = true;
+  while (!suspects_.empty() && suspects_.back().acquitted) suspects_.pop_back();
 }
 
 void Converter::report_suspects() {
-  for (const ExprId e : suspects_) {
+  for (const auto& [e, acquitted] : suspects_) {
+    // Who is left of a pattern that was refused is no news.
+    if (acquitted || any_refused_) continue;
     const Expr& expr = at(e);
     if (std::holds_alternative<WildcardExpr>(expr.node)) {
       context_->report(codes::pattern_in_expression, expr.span,
@@ -375,13 +374,13 @@ void Converter::report_suspects() {
 
 void Converter::clear() {
   // A communication that nobody took refers to fields that are about to go.
-  for (const ExprId e : suspects_) {
-    auto* open = std::get_if<CommunicationExpr>(&context_->tree.exprs[e].node);
+  for (const Suspect& suspect : suspects_) {
+    auto* open = std::get_if<CommunicationExpr>(&context_->tree.exprs[suspect.expr].node);
     if (open != nullptr) open->fields = {};
   }
   suspects_.clear();
   fields_.clear();
-  in_field_ = false;
+  in_field_ = any_refused_ = false;
 }
 
 }  // namespace perentie::parser

@@ -33,11 +33,17 @@ class Converter {
   /// The fields of a communication that `->` takes.
   FieldList take_fields(ExprId communication);
 
-  void suspect(ExprId e) { suspects_.push_back(e); }
+  /// For nodes just made.
+  void suspect(ExprId e) { suspects_.push_back({e, false}); }
   void report_suspects();
   void clear();
 
  private:
+  struct Suspect {
+    ExprId expr;
+    bool acquitted;
+  };
+
   PatternId convert(ExprId e);
   PatternId convert_negation(ExprId e);
   PatternId convert_collection(ExprId e);
@@ -51,7 +57,6 @@ class Converter {
   void add_field(FieldKind kind, Span token, ExprId component, bool in_parentheses);
   std::optional<ExprId> restricting_set(ExprId& component);
   void acquit(ExprId e);
-  void acquit_within(Span span);
 
   const Expr& at(ExprId e) const { return context_->tree.exprs[e]; }
   template <class Node>
@@ -60,10 +65,11 @@ class Converter {
   }
 
   BuildContext* context_;
-  std::vector<ExprId> suspects_;  // in the order of their creation
-  std::vector<FieldId> fields_;   // of the communications that no `->` has taken yet
+  std::vector<Suspect> suspects_;  // in the order of their ids
+  std::vector<FieldId> fields_;    // of the communications that no `->` has taken yet
   bool in_field_ = false;
-  bool refused_ = false;  // the pattern being converted has been reported
+  bool refused_ = false;      // the pattern being converted has been reported
+  bool any_refused_ = false;  // or another one of this declaration
 };
 
 /// Whether parentheses stood around the first or last operand of an infix node. Spans tell: that of

@@ -66,6 +66,15 @@ std::optional<std::uint8_t> prefix_level_of(const Expr& e) {
 
 constexpr std::uint8_t tighter(std::uint8_t level) { return static_cast<std::uint8_t>(level - 1); }
 
+bool is_hiding(InfixOp op) { return op == InfixOp::hide || op == InfixOp::project; }
+
+/// The operators that are re-rooted above a hiding to their left (1.7.7).
+bool gives_way(InfixOp op) {
+  const std::uint8_t level = info(op).level;
+  return level >= info(InfixOp::sequential).level && level < info(InfixOp::hide).level &&
+         op != InfixOp::link_parallel;
+}
+
 /// Whether the operator may begin a line: `-` and `<` may not, they would begin a declaration.
 bool may_begin_line(InfixOp op) { return op != InfixOp::subtract && op != InfixOp::less; }
 
@@ -77,7 +86,9 @@ void Printer::print_expression(ExprId e, Place place) {
   const std::optional<std::uint8_t> prefix = prefix_level_of(expr);
   bool parentheses = false;
   if (op) {
-    parentheses = info(*op).level > place.level || (*op == InfixOp::greater && place.in_sequence);
+    const bool may_hide = is_hiding(*op) && place.side == Side::start;
+    parentheses = (info(*op).level > place.level && !may_hide) ||
+                  (*op == InfixOp::greater && place.in_sequence);
   } else if (prefix) {
     // The operator that follows would be taken into the operand; at its own level `|| .. @`
     // clashes.
@@ -118,7 +129,9 @@ void Printer::print_operand(const Expr& expr, Place place) {
   const auto collection = [&](const CollectionExpr& n) {
     const bool is_sequence = n.kind == Collection::sequence;
     const bool is_set = n.kind == Collection::set;
-    if (n.kind == Collection::productions && n.items.empty()) return text("{||}");
+    if (n.items.empty() && n.statements.empty()) {
+      return text(is_sequence ? "<>" : is_set ? "{}" : "{||}");
+    }
     text(is_sequence ? "<" : is_set ? "{" : "{|");
     print_items(tree_.list(n.items), is_sequence);
     print_such_that(n.statements, is_sequence);
@@ -150,13 +163,13 @@ void Printer::print_operand(const Expr& expr, Place place) {
                  },
                  map, collection, range,
                  [&](const ApplyExpr& n) {
-                   expression(n.function, {level_postfix, 0, place.in_sequence});
+                   expression(n.function, {level_postfix, 0, place.in_sequence, Side::left});
                    text("(");
                    print_items(tree_.list(n.arguments), false);
                    text(")");
                  },
                  [&](const RenameExpr& n) {
-                   expression(n.process, {level_postfix, 0, place.in_sequence});
+                   expression(n.process, {level_postfix, 0, place.in_sequence, Side::left});
                    text("[[");
                    print_ties(n.pairs, " <- ", false);
                    text("]]");
@@ -250,7 +263,8 @@ bool Printer::fits_after_colon(ExprId e) const {
 
 void Printer::print_prefix_operator(const Expr& expr, Place place) {
   const auto last_operand = [&](ExprId e, std::uint8_t level) {
-    expression(e, {level, place.followed_by, place.in_sequence});
+    const Side side = level == loosest ? Side::start : Side::right;
+    expression(e, {level, place.followed_by, place.in_sequence, side});
   };
   const auto body = [&](ExprId e, std::uint8_t level = loosest) {
     indent();
@@ -390,13 +404,15 @@ void Printer::print_infix(ExprId e, Place place) {
       chain.push_back(operands_of(tree_.exprs[chain.back()]).second);
     }
   }
-  const Place between{tighter(level.level), level.level, place.in_sequence};
+  const Place between{tighter(level.level), level.level, place.in_sequence, Side::right};
+  Place leftmost = between;
+  const InfixOp first_op = *infix_of(tree_.exprs[chain.front()]);
+  const bool keeps_start = gives_way(first_op) || is_hiding(first_op);
+  leftmost.side = place.side == Side::start && keeps_start ? Side::start : Side::left;
 
-  // What is an expression of its own begins where its lines begin.
-  const bool is_part = place.level != loosest;
   open_group();
-  if (is_part) indent();
-  if (!to_right) expression(operands_of(tree_.exprs[chain.front()]).first, between);
+  if (place.side == Side::right) indent();
+  if (!to_right) expression(operands_of(tree_.exprs[chain.front()]).first, leftmost);
   for (const ExprId node : chain) {
     const Expr& expr = tree_.exprs[node];
     const auto* prefix = std::get_if<PrefixExpr>(&expr.node);
@@ -410,15 +426,14 @@ void Printer::print_infix(ExprId e, Place place) {
     Place right = between;
     if (node == chain.back()) right.followed_by = place.followed_by;
     const InfixOp op = *infix_of(expr);
-    if (op == InfixOp::hide || op == InfixOp::project) {
-      // What yields to hiding would be re-rooted (1.7.7).
-      const ExprId hidden = operands_of(expr).second;
-      const bool is_link = std::holds_alternative<LinkParallelExpr>(tree_.exprs[hidden].node);
-      right.level = is_link ? info(InfixOp::link_parallel).level : info(InfixOp::prefix).level;
+    const ExprId operand = operands_of(expr).second;
+    if (is_hiding(op)) {
+      const std::optional<InfixOp> hidden = infix_of(tree_.exprs[operand]);
+      if (hidden && gives_way(*hidden)) right.level = tighter(info(InfixOp::sequential).level);
     }
-    expression(operands_of(expr).second, right);
+    expression(operand, right);
   }
-  if (is_part) dedent();
+  if (place.side == Side::right) dedent();
   close_group();
 }
 
@@ -485,7 +500,7 @@ void Printer::print_communication(const PrefixExpr& prefix, Place place) {
   const std::span<const FieldId> fields = tree_.list(prefix.fields);
   if (fields.empty()) return expression(prefix.channel, place);
   const std::uint8_t field_level = info(InfixOp::input).level;
-  expression(prefix.channel, {tighter(field_level), field_level, place.in_sequence});
+  expression(prefix.channel, {tighter(field_level), field_level, place.in_sequence, Side::left});
   for (std::size_t i = 0; i < fields.size(); ++i) {
     print_field(tree_.fields[fields[i]], i + 1 < fields.size() ? field_level : place.followed_by,
                 place.in_sequence);
@@ -498,13 +513,13 @@ void Printer::print_field(const Field& field, std::uint8_t followed_by, bool in_
   const std::uint8_t level = tighter(restrict);
   if (field.kind == FieldKind::output) {
     text("!");
-    return expression(field.expression, {level, followed_by, in_sequence});
+    return expression(field.expression, {level, followed_by, in_sequence, Side::right});
   }
   text(field.kind == FieldKind::input ? "?" : "$");
   pattern(field.pattern, {level, field.expression ? restrict : followed_by, in_sequence});
   if (!field.expression) return;
   text(":");
-  expression(field.expression, {level, followed_by, in_sequence});
+  expression(field.expression, {level, followed_by, in_sequence, Side::right});
 }
 
 }  // namespace perentie::parser

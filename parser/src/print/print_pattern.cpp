@@ -78,7 +78,10 @@ void Printer::print_pattern(PatternId id, Place place) {
                  [&](const CharPattern& n) { own(quote(static_cast<char>(n.value))); },
                  [&](const StringPattern& n) { own(quote(name(n.text))); },
                  [&](const TuplePattern& n) { bracketed("(", n.items, ")"); },
-                 [&](const SequencePattern& n) { bracketed("<", n.items, ">"); },
+                 [&](const SequencePattern& n) {
+                   if (n.items.empty()) return text("<>");
+                   bracketed("<", n.items, ">");
+                 },
                  [&](const SetPattern& n) { bracketed("{", n.items, "}"); },
                  [](const auto&) {},
              },

@@ -35,11 +35,17 @@ class Printer {
   static constexpr std::uint8_t loosest = 255;
   static constexpr std::uint8_t no_operator = 255;
 
+  /// Where in a run of operands an expression stands. At the start hiding needs no parentheses
+  /// before an operator that gives way to it (1.7.7); what is to the right is indented when it is
+  /// broken.
+  enum class Side : std::uint8_t { start, left, right };
+
   /// Where an expression or pattern stands.
   struct Place {
-    std::uint8_t level = loosest;  ///< the loosest infix operator that needs no parentheses
+    std::uint8_t level = loosest;            ///< the loosest operator that needs no parentheses
     std::uint8_t followed_by = no_operator;  ///< the level of the operator right after it
     bool in_sequence = false;                ///< directly inside `<..>`, where `>` is a bracket
+    Side side = Side::start;
   };
 
   struct Task {
@@ -64,9 +70,7 @@ class Printer {
 
     static Task expression(ExprId e, Place p) { return {Kind::expression, p, e.value, {}}; }
     static Task pattern(PatternId e, Place p) { return {Kind::pattern, p, e.value, {}}; }
-    static Task type(TypeId t, std::uint8_t level) {
-      return {Kind::type, {level, no_operator, false}, t.value, {}};
-    }
+    static Task type(TypeId t, std::uint8_t level) { return {Kind::type, {level}, t.value, {}}; }
     static Task declaration(DeclId d) { return {Kind::declaration, {}, d.value, {}}; }
   };
 
