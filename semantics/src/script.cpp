@@ -177,8 +177,10 @@ TermSystem::TermSystem(std::unique_ptr<Impl> impl, ProcId initial)
 TermSystem::TermSystem(TermSystem&&) noexcept = default;
 TermSystem::~TermSystem() = default;
 
-TermSystem Script::terms(ProcId initial, base::Diagnostics& diagnostics) {
-  return TermSystem(std::make_unique<TermSystem::Impl>(*impl_, diagnostics), initial);
+TermSystem Script::terms(ProcId process, base::Diagnostics& diagnostics) {
+  auto impl = std::make_unique<TermSystem::Impl>(*impl_, diagnostics);
+  const ProcId initial = impl->rules.state(process).value_or(process);
+  return TermSystem(std::move(impl), initial);
 }
 
 bool TermSystem::successors(State state, std::vector<lts::Transition<State>>& out) {

@@ -19,7 +19,84 @@ bool StepRules::successors(ProcId process, Steps& out) {
   limit_.reset();
   unfolding_.clear();
   depth_ = 0;
-  return step(process, out);
+  const std::size_t first = out.size();
+  if (!step(process, out)) return false;
+  for (std::size_t i = first; i < out.size(); ++i) {
+    const std::optional<ProcId> target = settle(out[i].target);
+    if (!target) return false;
+    out[i].target = *target;
+  }
+  return true;
+}
+
+std::optional<ProcId> StepRules::state(ProcId process) {
+  limit_.reset();
+  depth_ = 0;
+  return settle(process);
+}
+
+// --- States -------------------------------------------------------------------------------------
+
+namespace {
+
+// Where the process operands of an operator that stays in place lie among its words: from `first`,
+// every `stride`-th. None: the term is not such an operator.
+struct OperandPlaces {
+  std::size_t first;
+  std::size_t stride;
+};
+std::optional<OperandPlaces> static_operands(ProcKind kind) {
+  switch (kind) {
+    case ProcKind::interleave: return OperandPlaces{0, 1};
+    case ProcKind::parallel:
+    case ProcKind::link_parallel: return OperandPlaces{1, 1};
+    case ProcKind::alphabet_parallel: return OperandPlaces{1, 2};
+    case ProcKind::hide:
+    case ProcKind::project:
+    case ProcKind::rename:
+    case ProcKind::compression: return OperandPlaces{1, 2};
+    case ProcKind::prioritise_partial: return OperandPlaces{2, 3};
+    default: return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::optional<ProcId> StepRules::unfold(ProcId call) {
+  const std::optional<ProcId> body = calls_.unfold(call, diagnostics_);
+  if (!body) limit_ = calls_.limit();
+  return body;
+}
+
+std::optional<ProcId> StepRules::settle(ProcId process) {
+  if (processes_.kind(process) != ProcKind::call) return settle_operands(process);
+  if (const auto known = settled_.find(process.value); known != settled_.end()) return known->second;
+  settled_[process.value] = process;  // for a name that stands for itself alone
+  const std::optional<ProcId> body = unfold(process);
+  if (!body) return std::nullopt;
+  const ProcKind kind = processes_.kind(*body);
+  // DIV, RUN(A) and CHAOS(A) are names, too.
+  const bool is_name = kind == ProcKind::call || kind == ProcKind::div || kind == ProcKind::run ||
+                       kind == ProcKind::chaos;
+  if (!is_name && !static_operands(kind)) return process;
+  const std::optional<ProcId> state = settle(*body);
+  if (state) settled_[process.value] = *state;
+  return state;
+}
+
+std::optional<ProcId> StepRules::settle_operands(ProcId process) {
+  const auto places = static_operands(processes_.kind(process));
+  if (!places || depth_ >= max_depth) return process;
+  const auto words = processes_.words(process);
+  std::vector<std::uint32_t> settled(words.begin(), words.end());
+  ++depth_;
+  for (std::size_t i = places->first; i < settled.size(); i += places->stride) {
+    const std::optional<ProcId> operand = settle(ProcId{settled[i]});
+    if (!operand) return std::nullopt;
+    settled[i] = operand->value;
+  }
+  --depth_;
+  return processes_.rebuild(process, settled);
 }
 
 bool StepRules::step(ProcId process, Steps& out) {
@@ -85,11 +162,8 @@ bool StepRules::step_call(ProcId process, Steps& out) {
         fmt::format("`{}` is defined by itself without any event in between", calls_.call_name(process)));
     return false;
   }
-  const std::optional<ProcId> body = calls_.unfold(process, diagnostics_);
-  if (!body) {
-    limit_ = calls_.limit();
-    return false;
-  }
+  const std::optional<ProcId> body = unfold(process);
+  if (!body) return false;
   const bool done = step(*body, out);
   unfolding_.erase(process.value);
   return done;

@@ -12,9 +12,72 @@ using parser::ExprId;
 using parser::InfixOp;
 using parser::StatementId;
 
+namespace {
+
+bool is_process_operator(InfixOp op) {
+  switch (op) {
+    case InfixOp::sequential:
+    case InfixOp::sliding_choice:
+    case InfixOp::interrupt:
+    case InfixOp::external_choice:
+    case InfixOp::internal_choice:
+    case InfixOp::interleave:
+    case InfixOp::hide:
+    case InfixOp::project:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+// What the code of an expression is known to leave, whatever its operands are.
+Lowering::Leaves Lowering::leaves(ExprId expr) const {
+  return std::visit(
+      overload{
+          [&](const parser::NameExpr&) {
+            const SymbolId symbol = resolution_.of_expr[expr.value];
+            if (!symbol) return Leaves::unknown;
+            const SymbolKind kind = resolution_.symbols[symbol].kind;
+            const bool is_atom = kind == SymbolKind::channel || kind == SymbolKind::constructor;
+            return is_atom ? Leaves::value : Leaves::unknown;
+          },
+          [](const parser::IntExpr&) { return Leaves::value; },
+          [](const parser::BoolExpr&) { return Leaves::value; },
+          [](const parser::CharExpr&) { return Leaves::value; },
+          [](const parser::StringExpr&) { return Leaves::value; },
+          [](const parser::MapExpr&) { return Leaves::value; },
+          [](const parser::NegateExpr&) { return Leaves::value; },
+          [](const parser::NotExpr&) { return Leaves::value; },
+          [](const parser::CollectionExpr& e) {
+            return e.kind == Collection::sequence ? Leaves::unknown : Leaves::value;
+          },
+          [](const parser::RangeExpr& e) {
+            return e.kind == Collection::sequence ? Leaves::unknown : Leaves::value;
+          },
+          [](const parser::InfixExpr& e) {
+            if (e.op == InfixOp::guard || is_process_operator(e.op)) return Leaves::process;
+            return e.op == InfixOp::concat ? Leaves::unknown : Leaves::value;
+          },
+          [](const parser::PrefixExpr&) { return Leaves::process; },
+          [](const parser::ParallelExpr&) { return Leaves::process; },
+          [](const parser::AlphabetParallelExpr&) { return Leaves::process; },
+          [](const parser::ExceptionExpr&) { return Leaves::process; },
+          [](const parser::SyncChoiceExpr&) { return Leaves::process; },
+          [](const parser::SyncInterruptExpr&) { return Leaves::process; },
+          [](const parser::LinkParallelExpr&) { return Leaves::process; },
+          [](const parser::RenameExpr&) { return Leaves::process; },
+          [](const parser::ReplicatedExpr&) { return Leaves::process; },
+          [](const parser::ReplicatedLinkExpr&) { return Leaves::process; },
+          [](const auto&) { return Leaves::unknown; },
+      },
+      tree_.exprs[expr].node);
+}
+
 void Lowering::canonical(ExprId expr) {
   value(expr);
-  emit(Op::canon);
+  if (leaves(expr) == Leaves::unknown) emit(Op::canon);
 }
 
 void Lowering::thunk(ExprId expr) {
@@ -278,22 +341,6 @@ const parser::CollectionExpr* Lowering::literal_sequence(const parser::InfixExpr
 }
 
 namespace {
-
-bool is_process_operator(InfixOp op) {
-  switch (op) {
-    case InfixOp::sequential:
-    case InfixOp::sliding_choice:
-    case InfixOp::interrupt:
-    case InfixOp::external_choice:
-    case InfixOp::internal_choice:
-    case InfixOp::interleave:
-    case InfixOp::hide:
-    case InfixOp::project:
-      return true;
-    default:
-      return false;
-  }
-}
 
 ProcKind process_kind(InfixOp op) {
   switch (op) {

@@ -112,6 +112,8 @@ class Lowering {
 
   // Expressions. The code leaves on the stack what is evaluated to weak head normal form (value),
   // possibly not at all (lazy), completely (canonical), or is a process (process).
+  enum class Leaves : std::uint8_t { unknown, value, process };
+  Leaves leaves(parser::ExprId expr) const;
   void value(parser::ExprId expr, Tail tail = Tail::no);
   void lazy(parser::ExprId expr);
   void canonical(parser::ExprId expr);

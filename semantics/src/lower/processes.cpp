@@ -14,7 +14,7 @@ using parser::ReplicatedOp;
 void Lowering::process(ExprId expr, Tail tail) {
   value(expr);
   span_ = tree_.exprs[expr].span;
-  emit(Op::check_process);
+  if (leaves(expr) != Leaves::process) emit(Op::check_process);
   finish(tail);
 }
 
@@ -68,7 +68,7 @@ void Lowering::prefix(ExprId expr) {
     for (const FieldId field : fields) canonical(tree_.fields[field].expression);
     span_ = tree_.exprs[e->channel].span;
     if (!fields.empty()) emit(Op::dot, static_cast<std::uint32_t>(fields.size()) + 1);
-    emit(Op::check_event);
+    emit(Op::check_event);  // before the body is evaluated: the first error is the one to report
     prefixes.push_back(tree_.exprs[expr].span);
     expr = e->body;
   }

@@ -48,7 +48,7 @@ class Script {
                                 const std::string& origin = "<expression>");
 
   /// The transitions of a process by the step rules. The script must outlive the system.
-  TermSystem terms(ProcId initial, base::Diagnostics& diagnostics);
+  TermSystem terms(ProcId process, base::Diagnostics& diagnostics);
 
   /// A process term as FDR prints it, cut to `max_length` characters.
   std::string show(ProcId process, std::size_t max_length = 200) const;
@@ -81,6 +81,7 @@ class TermSystem {
   ~TermSystem();
   TermSystem(TermSystem&&) noexcept;
 
+  /// Fails like `successors`: then the term itself is the only state.
   State initial() const { return initial_; }
   bool successors(State state, std::vector<lts::Transition<State>>& out);
   std::uint64_t state_hash(State state) const;

@@ -42,12 +42,18 @@ class StepRules {
             base::Diagnostics& diagnostics)
       : calls_(calls), events_(events), processes_(processes), diagnostics_(diagnostics) {}
 
-  /// Appends the transitions of a term. False: they cannot be computed; the reason was reported, or
-  /// `limit()` says which budget ran out.
+  /// The state that a term is: names that only stand for other names or for operators that stay in
+  /// place (parallels, hiding, renaming, ..) are no states of their own (6.2.2). Nothing on failure.
+  std::optional<ProcId> state(ProcId process);
+  /// Appends the transitions of a term, with targets that are states. False: they cannot be computed;
+  /// the reason was reported, or `limit()` says which budget ran out.
   bool successors(ProcId process, Steps& out);
   std::optional<base::LimitReached> limit() const { return limit_; }
 
  private:
+  std::optional<ProcId> settle(ProcId process);
+  std::optional<ProcId> settle_operands(ProcId process);
+  std::optional<ProcId> unfold(ProcId call);
   bool step(ProcId process, Steps& out);
   bool step_term(ProcId process, Steps& out);
   bool step_call(ProcId process, Steps& out);
@@ -81,6 +87,7 @@ class StepRules {
   std::uint32_t depth_ = 0;
   std::unordered_set<std::uint32_t> unfolding_;               // calls that are being stepped
   std::unordered_map<std::uint32_t, bool> only_terminates_;   // by process
+  std::unordered_map<std::uint32_t, ProcId> settled_;         // by process
   std::optional<base::LimitReached> limit_;
 };
 
