@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include "perentie/base/text.hpp"
 #include "perentie/monitor/diagnostic_codes.hpp"
@@ -23,6 +25,35 @@ std::string_view kind_of(const YAML::Node& node) {
     default:
       return "empty";
   }
+}
+
+// Takes a document and keeps only where it begins.
+struct DocumentStart : YAML::EventHandler {
+  YAML::Mark mark;
+
+  void OnDocumentStart(const YAML::Mark& start) override { mark = start; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// Where a second document begins, if there is one. Documents are asked for one by one and never
+// more than two of them: of some malformed texts (a lone `,`) yaml-cpp 0.7 makes empty documents
+// without end, and `YAML::LoadAll` keeps them all (jbeder/yaml-cpp issue 1040).
+std::optional<YAML::Mark> find_second_document(const std::string& text) {
+  std::istringstream input(text);
+  YAML::Parser parser(input);
+  DocumentStart start;
+  if (!parser.HandleNextDocument(start) || !parser.HandleNextDocument(start)) return std::nullopt;
+  return start.mark;
 }
 
 template <class Number>
@@ -85,26 +116,27 @@ base::Diagnostic& YamlFile::report(const base::DiagnosticCode& code, const YAML:
 }
 
 std::optional<YAML::Node> YamlFile::parse() {
-  std::vector<YAML::Node> documents;
+  const std::string text(sources_->text(file_));
+  YAML::Node document;
   try {
-    documents = YAML::LoadAll(std::string(sources_->text(file_)));
+    if (const auto second = find_second_document(text)) {
+      diagnostics_->report(codes::malformed_yaml, span_of(*second, 1),
+                           "the file goes on behind the end of its YAML document");
+      return std::nullopt;
+    }
+    document = YAML::Load(text);
   } catch (const YAML::Exception& error) {
     diagnostics_->report(codes::malformed_yaml, span_of(error.mark, 1),
                          fmt::format("this is not YAML: {}", error.msg));
     return std::nullopt;
   }
-  if (documents.empty()) documents.emplace_back();
-  if (documents.size() > 1) {
-    report(codes::malformed_yaml, documents[1], "the file holds more than one YAML document");
+  if (!document.IsMap()) {
+    diagnostics_->report(
+        codes::wrong_type, span_of(document.Mark(), 1),
+        fmt::format("the file must be a map of keys to values, but it is {}", kind_of(document)));
     return std::nullopt;
   }
-  if (!documents[0].IsMap()) {
-    diagnostics_->report(codes::wrong_type, span_of(documents[0].Mark(), 1),
-                         fmt::format("the file must be a map of keys to values, but it is {}",
-                                     kind_of(documents[0])));
-    return std::nullopt;
-  }
-  return documents[0];
+  return document;
 }
 
 void YamlFile::check_keys(const YAML::Node& map, std::string_view what,

@@ -84,7 +84,7 @@ const BadMapping bad_mappings[] = {
      "m.yaml:1:1: error: the file must be a map of keys to values, but it is a list [M007]\n- "
      "a\n^\n"},
     {"two_documents", "perentie-mapping: 1\nrules: []\n---\na: b\n",
-     "m.yaml:4:1: error: the file holds more than one YAML document [M002]\na: b\n^\n"},
+     "m.yaml:3:1: error: the file goes on behind the end of its YAML document [M002]\n---\n^\n"},
     {"no_keys", "name: x\n",
      "m.yaml:1:1: error: a mapping must have the key `perentie-mapping` [M004]\nname: x\n^\n"
      "m.yaml:1:1: error: a mapping must have the key `rules` [M004]\nname: x\n^\n"},
@@ -179,6 +179,11 @@ TEST(MappingTest, HostileYamlIsNoDanger) {
   EXPECT_NE(diagnostics_of(std::string(100000, '[')), "");
   EXPECT_NE(diagnostics_of(std::string(100000, '{')), "");
   EXPECT_NE(diagnostics_of(std::string("\0\x01\xFF", 3)), "");
+  // Texts on which yaml-cpp has hung, or of which it makes documents without end.
+  for (const char* text :
+       {",", ",\n-", ", b'N# ", "rules: (\n\"a\",\n)", "[:", "{:", "a: [", "- !+(.,.)"}) {
+    EXPECT_NE(diagnostics_of(text), "") << text;
+  }
   EXPECT_NE(diagnostics_of("rules: &a [*a, *a]\nperentie-mapping: *b\n"), "");
 }
 

@@ -336,6 +336,20 @@ TEST(MessageMappingTest, NaNAndInfinityAreNoFaultWhereTheyDoNotMatter) {
       << texts[0];
 }
 
+TEST(MessageMappingTest, DeepMessagesAreMappedOrRefused) {
+  const std::string open(100000, '[');
+  const std::string close(100000, ']');
+  const TraceSetup setup = rule("    event: 'e.{x}'\n");
+  EXPECT_EQ(events_of("{\"a\":" + open + close + ",\"topic\":\"t\",\"x\":1}\n", setup),
+            Texts{"e.1"});
+  const Texts broken = events_of("{\"a\":" + open + ",\"topic\":\"t\",\"x\":1}\n", setup);
+  ASSERT_EQ(broken.size(), 1U);
+  EXPECT_NE(broken[0].find("[M021]"), std::string::npos) << broken[0];
+  const Texts nested = events_of("{\"topic\":\"t\",\"x\":" + open + close + "}\n", setup);
+  ASSERT_EQ(nested.size(), 1U);
+  EXPECT_NE(nested[0].find("which is not a single value or a list of them"), std::string::npos);
+}
+
 TEST(MessageMappingTest, PlacesInALongLineAreColumnsOfTheFile) {
   const std::string padding(5000, 'x');
   const Texts texts =
