@@ -212,8 +212,7 @@ void Lexer::scan_word() {
   while (peek() == '\'') ++at_;
   const std::string_view word = text_.substr(begin, at_ - begin);
   if (word == "include") return scan_include(begin);
-  // With anything but a blank after it `print` is an ordinary name (1.3.5).
-  if (word == "print" && line_start_ && (peek() == ' ' || peek() == '\t')) return scan_print();
+  if (word == "print" && line_start_ && scan_print()) return;
   const Spelled* keyword =
       keywords.find(word[0], [&](const Spelled& candidate) { return candidate.text == word; });
   if (keyword == nullptr) return emit(TokenKind::identifier, begin, at_, intern(word));
@@ -307,8 +306,9 @@ void Lexer::scan_unreadable() {
   if (known != confusables.end()) {
     at_ += known->text.size();
     // Someone's typography, not a sign of binary data.
-    diagnostics_->report(codes::bad_character, span(begin, at_),
-                         fmt::format("`{}` is not a symbol of CSPM: {}", known->text, known->advice));
+    diagnostics_->report(
+        codes::bad_character, span(begin, at_),
+        fmt::format("`{}` is not a symbol of CSPM: {}", known->text, known->advice));
     return emit(TokenKind::error, begin, at_);
   }
   const auto is_odd = [](char c) {

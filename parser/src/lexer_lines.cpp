@@ -46,15 +46,18 @@ void Lexer::scan_include(std::size_t word_begin) {
   emit(TokenKind::error, word_begin, at_);
 }
 
-// At the blank after `print`: the rest of the line is the text of an expression, which is not read
-// here.
-void Lexer::scan_print() {
+// After the word `print`: if a blank follows, the rest of the line is the text of an expression,
+// which is not read here. Otherwise `print` is an ordinary name (1.3.5).
+bool Lexer::scan_print() {
+  if (peek() != ' ' && peek() != '\t') return false;
   const std::size_t line_end = end_of_line();
-  std::size_t begin = std::min(text_.find_first_not_of(blanks, at_), line_end);
+  const std::size_t begin = std::min(text_.find_first_not_of(blanks, at_), line_end);
+  if (begin == line_end) return false;
   std::size_t end = line_end;
-  while (end > begin && blanks.find(text_[end - 1]) != std::string_view::npos) --end;
+  while (blanks.find(text_[end - 1]) != std::string_view::npos) --end;
   at_ = end;
   emit(TokenKind::print_, begin, end, intern(text_.substr(begin, end - begin)));
+  return true;
 }
 
 // `[T=` and its like, without blanks inside. Not `[T==`, which compares.

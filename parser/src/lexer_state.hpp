@@ -28,10 +28,10 @@ class Lexer {
   Stop run();
 
  private:
-  struct Gap {               // what lay between the previous token and this one
+  struct Gap {  // what lay between the previous token and this one
     std::size_t begin = 0;
-    bool blank = false;      // anything at all
-    bool newline = false;    // a newline outside block comments
+    bool blank = false;    // anything at all
+    bool newline = false;  // a newline outside block comments
   };
 
   // lexer.cpp
@@ -54,7 +54,7 @@ class Lexer {
 
   // lexer_lines.cpp
   void scan_include(std::size_t word_begin);
-  void scan_print();
+  bool scan_print();
   bool scan_refines();
   void scan_property();
   void scan_property_word();

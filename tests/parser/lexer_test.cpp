@@ -174,6 +174,7 @@ TEST(LexerTest, PrintLines) {
   EXPECT_EQ(kinds("print(x)"), "identifier left_paren identifier right_paren");
   EXPECT_EQ(kinds("f(print x)"), "identifier left_paren identifier identifier right_paren");
   EXPECT_EQ(kinds("print"), "identifier");
+  EXPECT_EQ(kinds("print \t\nx"), "identifier newline identifier");
 }
 
 TEST(LexerTest, IncludeLines) {

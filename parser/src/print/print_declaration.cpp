@@ -42,7 +42,9 @@ void Printer::print_declaration(DeclId d) {
                  [&](const FunctionDecl& n) { print_function(n); },
                  [&](const AnnotationDecl& n) {
                    separated("", n.names);
-                   text(" :: ");
+                   // `print` and a blank would begin a print line.
+                   const bool is_print = name(tree_.list(n.names)[0].name) == "print";
+                   text(is_print ? ":: " : " :: ");
                    const std::span<const Constraint> constraints = tree_.list(n.constraints);
                    if (!constraints.empty()) text("(");
                    for (std::size_t i = 0; i < constraints.size(); ++i) {
@@ -68,8 +70,8 @@ void Printer::print_declaration(DeclId d) {
                    text(" =");
                    bool first = true;
                    for (const Constructor& constructor : tree_.list(n.constructors)) {
-                     fill();
-                     if (!first) text("| ");
+                     if (!first) fill();
+                     text(first ? " " : "| ");
                      text(name(constructor.name.name));
                      if (constructor.type) text(".");
                      if (constructor.type) expression(constructor.type, {});

@@ -1,4 +1,5 @@
 // Expressions: which parentheses they need, and how long ones are broken.
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -150,7 +151,7 @@ void Printer::print_operand(const Expr& expr, Place place) {
     text("|)");
   };
   std::visit(base::overload{
-                 [&](const NameExpr& n) { print_name(n.name); },
+                 [&](const NameExpr& n) { print_operand_name(n.name); },
                  [&](const IntExpr& n) { own(std::to_string(n.value)); },
                  [&](const BoolExpr& n) { text(n.value ? "true" : "false"); },
                  [&](const CharExpr& n) { own(quote(static_cast<char>(n.value))); },
@@ -428,8 +429,12 @@ void Printer::print_infix(ExprId e, Place place) {
     const InfixOp op = *infix_of(expr);
     const ExprId operand = operands_of(expr).second;
     if (is_hiding(op)) {
+      // Neither may the hidden set be re-rooted itself, nor stand looser than an operator after it
+      // that gives way to this hiding.
       const std::optional<InfixOp> hidden = infix_of(tree_.exprs[operand]);
-      if (hidden && gives_way(*hidden)) right.level = tighter(info(InfixOp::sequential).level);
+      right.level = hidden && gives_way(*hidden)
+                        ? tighter(info(InfixOp::sequential).level)
+                        : std::min(right.level, tighter(right.followed_by));
     }
     expression(operand, right);
   }

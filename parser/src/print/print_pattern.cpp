@@ -71,7 +71,7 @@ void Printer::print_pattern(PatternId id, Place place) {
     return text(")");
   }
   std::visit(base::overload{
-                 [&](const NamePattern& n) { print_name(n.name); },
+                 [&](const NamePattern& n) { print_operand_name(n.name); },
                  [&](const WildcardPattern&) { text("_"); },
                  [&](const IntPattern& n) { own(std::to_string(n.value)); },
                  [&](const BoolPattern& n) { text(n.value ? "true" : "false"); },

@@ -79,6 +79,16 @@ void Printer::print_name(QualifiedName name) {
   }
 }
 
+// A name that may come to begin a line: there `print` would take the rest of it as its text
+// (1.3.5).
+void Printer::print_operand_name(QualifiedName name) {
+  const std::span<const NameId> parts = tree_.list(name);
+  const bool guarded = parts.size() == 1 && this->name(parts[0]) == "print";
+  if (guarded) text("(");
+  print_name(name);
+  if (guarded) text(")");
+}
+
 // Escapes as the lexer reads them: `\n`, `\r`, `\t`, and the character itself for others.
 std::string quote(char c, char mark) {
   switch (c) {

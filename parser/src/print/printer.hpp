@@ -129,6 +129,7 @@ class Printer {
   bool soaks_newline_before(PatternId p) const;
 
   void print_name(QualifiedName name);
+  void print_operand_name(QualifiedName name);
   std::string_view name(NameId n) const { return tree_.names[n]; }
 
   const SyntaxTree& tree_;
