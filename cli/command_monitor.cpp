@@ -1,8 +1,8 @@
 // perentie monitor: a trace of a running system against a process of a model.
 //
-// The line from a model and a trace to a verdict: load, explore, hide what the system does not show,
-// normalise, compile the table, read the trace. What to monitor comes from a Varanus configuration
-// or from options; options win.
+// The line from a model and a trace to a verdict: load, explore, hide what the system does not
+// show, normalise, compile the table, read the trace. What to monitor comes from a Varanus
+// configuration or from options; options win.
 #include <chrono>
 #include <memory>
 
@@ -127,7 +127,9 @@ bool load_events(const Task& task, Input& input, Events& events) {
     if (!events.map) return false;
   }
   const bool varanus = task.is_varanus && task.mapping.empty();
-  const std::string first = varanus ? "varanus-rover" : task.mapping.empty() ? "simple" : task.mapping;
+  const std::string first = varanus                ? "varanus-rover"
+                            : task.mapping.empty() ? "simple"
+                                                   : task.mapping;
   events.mapping = monitor::load_mapping(first, input.sources, input.diagnostics);
   if (!events.mapping) return false;
   if (varanus) {
@@ -143,10 +145,13 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Varanus's gate. False: it was required, and does not hold.
-bool pass_determinism_gate(const Options& options, const Task& task, const lts::Lts& process,
-                           const Events& events, const base::Limits& limits, Console& console) {
-  if (options.determinism == "ignore" || !task.model_channels || !task.visible_channels) return true;
+// Varanus's gate. What it says if it was required and does not hold, else nothing.
+std::optional<std::string> failed_gate(const Options& options, const Task& task,
+                                       const lts::Lts& process, const Events& events,
+                                       const base::Limits& limits, Console& console) {
+  if (options.determinism == "ignore" || !task.model_channels || !task.visible_channels) {
+    return std::nullopt;
+  }
   const auto names = [&](const std::vector<Placed<std::string>>& channels) {
     std::vector<std::string> result;
     for (const auto& channel : channels) {
@@ -156,23 +161,29 @@ bool pass_determinism_gate(const Options& options, const Task& task, const lts::
   };
   const monitor::DeterminismGate gate = monitor::check_determinism_gate(
       process, names(*task.model_channels), names(*task.visible_channels), limits);
-  if (gate.passes()) return true;
-  if (options.determinism == "warn") {
-    console.note("determinism gate: " + monitor::explain(gate));
-    return true;
-  }
-  console.error("inconclusive, determinism gate: " + monitor::explain(gate));
-  return false;
+  if (gate.passes()) return std::nullopt;
+  const std::string message = "determinism gate: " + monitor::explain(gate);
+  if (options.determinism == "require") return message;
+  console.note(message);
+  return std::nullopt;
 }
 
-ExitCode report_inconclusive(const Options& options, monitor::RunSubject subject,
-                             const std::string& reason) {
+void print_report(const Options& options, const monitor::RunResult& result,
+                  const monitor::RunSubject& subject) {
   if (options.format == "json") {
-    monitor::RunResult result;
-    result.verdict = monitor::RunVerdict::inconclusive;
-  
     fmt::print("{}\n", monitor::to_json(result, subject));
+  } else {
+    fmt::print("{}", monitor::to_text(result, subject));
   }
+}
+
+// There is no verdict, and the trace was not looked at.
+ExitCode report_inconclusive(const Options& options, const monitor::RunSubject& subject,
+                             std::string reason) {
+  monitor::RunResult result;
+  result.verdict = monitor::RunVerdict::inconclusive;
+  result.reason = std::move(reason);
+  print_report(options, result, subject);
   return ExitCode::inconclusive;
 }
 
@@ -201,9 +212,11 @@ ExitCode run_monitor(const Options& options, Console& console) {
   subject.trace = task->trace;
   subject.mode = task->mode;
   if (built->limit) {
-    const std::string reason = base::describe(*built->limit);
-    console.error(fmt::format("inconclusive: {} while the model was explored", reason));
-    return report_inconclusive(options, subject, reason);
+    subject.states = built->lts().state_count();
+    subject.transitions = built->lts().edge_count();
+    return report_inconclusive(
+        options, subject,
+        fmt::format("{} while the model was explored", base::describe(*built->limit)));
   }
 
   std::optional<lts::Lts> hidden;
@@ -213,20 +226,20 @@ ExitCode run_monitor(const Options& options, Console& console) {
                                   script->channel_names(), input.diagnostics);
     console.print(input.diagnostics, input.sources);
     if (!visible) return ExitCode::usage;
-    hidden = lts::hide(built->lts(), monitor::labels_not_of_channels(built->lts().label_names(),
-                                                                     *visible));
+    hidden = lts::hide(built->lts(),
+                       monitor::labels_not_of_channels(built->lts().label_names(), *visible));
   }
   const lts::Lts& process = hidden ? *hidden : built->lts();
   subject.states = process.state_count();
   subject.transitions = process.edge_count();
-  if (!pass_determinism_gate(options, *task, built->lts(), events, limits, console)) {
-    return report_inconclusive(options, subject, "the determinism gate does not pass");
+  if (const auto failed = failed_gate(options, *task, built->lts(), events, limits, console)) {
+    return report_inconclusive(options, subject, *failed);
   }
   lts::Normalisation normalisation = lts::normalise(process, {.limits = limits});
   if (normalisation.limit) {
-    const std::string reason = base::describe(*normalisation.limit);
-    console.error(fmt::format("inconclusive: {} while the model was normalised", reason));
-    return report_inconclusive(options, subject, reason);
+    return report_inconclusive(
+        options, subject,
+        fmt::format("{} while the model was normalised", base::describe(*normalisation.limit)));
   }
   const monitor::MonitorModel model = monitor::make_monitor_model(std::move(normalisation.normal));
   subject.synthesis_seconds = seconds_since(start);
@@ -235,8 +248,8 @@ ExitCode run_monitor(const Options& options, Console& console) {
   const auto format = options.trace_format == "auto"
                           ? monitor::TraceFormat::automatic
                           : *monitor::trace_format_from_name(options.trace_format);
-  auto reader = monitor::open_trace(
-      task->trace, monitor::reader_options(events.sources(), format), trace_report);
+  auto reader = monitor::open_trace(task->trace, monitor::reader_options(events.sources(), format),
+                                    trace_report);
   if (reader == nullptr) {
     console.print(input.diagnostics, input.sources);
     return ExitCode::io_error;
@@ -247,8 +260,7 @@ ExitCode run_monitor(const Options& options, Console& console) {
   for (const lts::State state : result.model_states) {
     subject.model_position.push_back(script->show(built->exploration.states[state.value]));
   }
-  fmt::print("{}\n", options.format == "json" ? monitor::to_json(result, subject)
-                                              : monitor::to_text(result, subject));
+  print_report(options, result, subject);
   if (result.verdict == monitor::RunVerdict::violation) return ExitCode::refuted;
   return stream.failed() ? ExitCode::io_error : ExitCode::ok;
 }
@@ -257,8 +269,8 @@ ExitCode run_monitor(const Options& options, Console& console) {
 
 Command add_monitor(CLI::App& program) {
   const auto options = std::make_shared<Options>();
-  CLI::App* app = program.add_subcommand(
-      "monitor", "Check a trace of a system against a process of a model");
+  CLI::App* app =
+      program.add_subcommand("monitor", "Check a trace of a system against a process of a model");
   app->add_option("CONFIG", options->config,
                   "A Varanus configuration (YAML); paths in it are relative to its folder");
   app->add_option("--model", options->model, "The CSPM script")->group("What to monitor");
@@ -268,8 +280,7 @@ Command add_monitor(CLI::App& program) {
   app->add_option("--trace", options->trace,
                   "The trace: JSON lines, a JSON array, or one event a line; - is standard input")
       ->group("What to monitor");
-  app->add_option("--trace-format", options->trace_format,
-                  "auto, json-lines, json-array or text")
+  app->add_option("--trace-format", options->trace_format, "auto, json-lines, json-array or text")
       ->check(CLI::IsMember({"auto", "json-lines", "json-array", "text"}))
       ->capture_default_str()
       ->group("What to monitor");
@@ -278,10 +289,12 @@ Command add_monitor(CLI::App& program) {
       ->delimiter(',')
       ->type_name("NAME,..")
       ->group("What to monitor");
-  app->add_option("--map", options->map, "Event map (JSON): names of the system to names of the model")
+  app->add_option("--map", options->map,
+                  "Event map (JSON): names of the system to names of the model")
       ->group("From messages to events");
-  app->add_option("--mapping", options->mapping,
-                  "How messages become events: a file (docs/mapping.md), or simple or varanus-rover")
+  app->add_option(
+         "--mapping", options->mapping,
+         "How messages become events: a file (docs/mapping.md), or simple or varanus-rover")
       ->group("From messages to events");
   app->add_option("--mode", options->mode,
                   "strict: an event outside the model's alphabet is a violation; permissive\n"

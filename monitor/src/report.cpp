@@ -32,7 +32,7 @@ std::string headline(const RunResult& result, const RunSubject& subject) {
       return fmt::format("VIOLATION: {} does not permit the trace {}", subject.process,
                          subject.trace);
     case RunVerdict::inconclusive:
-      return fmt::format("INCONCLUSIVE: the trace {} could not be read to its end", subject.trace);
+      return fmt::format("INCONCLUSIVE: {}", result.reason);
   }
   return {};
 }
@@ -117,6 +117,8 @@ std::string to_json(const RunResult& result, const RunSubject& subject) {
   nlohmann::ordered_json json;
   json["schema"] = "perentie.monitor/1";
   json["verdict"] = to_string(result.verdict);
+  json["reason"] = nullptr;
+  if (!result.reason.empty()) json["reason"] = result.reason;
   json["events_checked"] = result.events_checked;
   json["events_total"] = nullptr;
   if (result.events_total) json["events_total"] = *result.events_total;
@@ -152,6 +154,7 @@ std::string to_json(const RunResult& result, const RunSubject& subject) {
 std::string to_text(const RunResult& result, const RunSubject& subject) {
   const bool violation = result.verdict == RunVerdict::violation;
   std::string text = headline(result, subject) + "\n";
+  if (result.state.is_none()) return text;  // the run did not begin
   if (violation) {
     append_violation(text, result, subject);
   } else if (result.events_checked > 0) {

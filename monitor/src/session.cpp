@@ -93,6 +93,7 @@ RunResult run_trace(EventStream& stream, const MonitorModel& model, Mode mode) {
   if (!stream.failed()) result.events_total = total;
   if (stream.failed() && result.verdict == RunVerdict::conforms) {
     result.verdict = RunVerdict::inconclusive;
+    result.reason = "the trace could not be read to its end";
   }
   describe_end(result, model, monitor, event);
   result.checking_seconds =

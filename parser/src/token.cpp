@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include <fmt/format.h>
+
 namespace perentie::parser {
 namespace {
 
@@ -25,7 +27,7 @@ const TokenInfo& info(TokenKind kind) { return token_table[static_cast<std::size
 std::string describe(TokenKind kind) {
   const TokenInfo& i = info(kind);
   const bool is_text = i.token_class != TokenClass::special || i.spelling.size() <= 2;
-  return is_text ? "`" + std::string(i.spelling) + "`" : std::string(i.spelling);
+  return is_text ? fmt::format("`{}`", i.spelling) : std::string(i.spelling);
 }
 
 }  // namespace perentie::parser

@@ -39,7 +39,8 @@ TEST(ReportTest, JsonOfAViolation) {
                         "\"event\":\"move.1\"}\n",
                         Mode::permissive),
                     about),
-            R"({"schema":"perentie.monitor/1","verdict":"violation","events_checked":3,)"
+            R"({"schema":"perentie.monitor/1","verdict":"violation","reason":null,)"
+            R"("events_checked":3,)"
             R"("events_total":4,"events_ignored":1,"event":"start","event_in_alphabet":true,)"
             R"("expected":["move.0","move.1"],"permitted_next":[],"line":3,"column":1,)"
             R"("source":"{\"event\":\"start\"}","model_position":["ROVER_MOVING"],)"
@@ -50,7 +51,8 @@ TEST(ReportTest, JsonOfAViolation) {
 
 TEST(ReportTest, JsonOfATraceThatConforms) {
   EXPECT_EQ(to_json(run("start\nmove.1\n", Mode::strict), subject(Mode::strict)),
-            R"({"schema":"perentie.monitor/1","verdict":"conforms","events_checked":2,)"
+            R"({"schema":"perentie.monitor/1","verdict":"conforms","reason":null,)"
+            R"("events_checked":2,)"
             R"("events_total":2,"events_ignored":0,"event":"move.1","event_in_alphabet":true,)"
             R"("expected":[],"permitted_next":["✓"],"line":2,"column":1,"source":null,)"
             R"("model_position":[],"ignored":{},"name":"patrol","model":"rover.csp",)"
@@ -125,9 +127,22 @@ TEST(ReportTest, TextAfterTheEndOfTheModel) {
   EXPECT_NE(text.find("  permitted  nothing: the model has stopped\n"), std::string::npos) << text;
 }
 
+TEST(ReportTest, ARunThatDidNotBeginSaysOnlyWhy) {
+  RunResult result;
+  result.verdict = RunVerdict::inconclusive;
+  result.reason = "the limit of 3 states was reached while the model was explored";
+  EXPECT_EQ(to_text(result, subject(Mode::strict)),
+            "INCONCLUSIVE: the limit of 3 states was reached while the model was explored\n");
+  const auto json = nlohmann::json::parse(to_json(result, subject(Mode::strict)));
+  EXPECT_EQ(json["verdict"], "inconclusive");
+  EXPECT_EQ(json["reason"], result.reason);
+  EXPECT_EQ(json["events_checked"], 0);
+  EXPECT_TRUE(json["events_total"].is_null());
+}
+
 TEST(ReportTest, TextOfATraceThatCannotBeRead) {
   EXPECT_EQ(to_text(run("{\"event\":\"start\"}\n{", Mode::strict), subject(Mode::strict)),
-            "INCONCLUSIVE: the trace rover.jsonl could not be read to its end\n"
+            "INCONCLUSIVE: the trace could not be read to its end\n"
             "  last event start\n"
             "  next       move.0, move.1\n"
             "  checked    1 event, strict mode\n");

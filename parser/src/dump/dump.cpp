@@ -22,11 +22,11 @@ std::string token_value(const Token& token, const TokenStream& stream,
     case TokenKind::string:
     case TokenKind::include_:
     case TokenKind::print_:
-      return " " + quote(names[token.name()]);
+      return fmt::format(" {}", quote(names[token.name()]));
     case TokenKind::integer:
       return fmt::format(" {}", stream.integers[token.value]);
     case TokenKind::character:
-      return " " + quote(static_cast<char>(token.value));
+      return fmt::format(" {}", quote(static_cast<char>(token.value)));
     case TokenKind::refines:
     case TokenKind::property_model:
       return fmt::format(" {}", spelling(static_cast<Model>(token.value)));

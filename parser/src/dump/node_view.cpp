@@ -127,11 +127,13 @@ void Viewer::see(ExprId e) {
   };
   std::visit(
       base::overload{
-          [&](const NameExpr& n) { label("name " + qualified(n.name)); },
+          [&](const NameExpr& n) { label(fmt::format("name {}", qualified(n.name))); },
           [&](const IntExpr& n) { label(fmt::format("integer {}", n.value)); },
           [&](const BoolExpr& n) { label(fmt::format("boolean {}", n.value)); },
-          [&](const CharExpr& n) { label("character " + quote(static_cast<char>(n.value))); },
-          [&](const StringExpr& n) { label("string " + string(n.text)); },
+          [&](const CharExpr& n) {
+            label(fmt::format("character {}", quote(static_cast<char>(n.value))));
+          },
+          [&](const StringExpr& n) { label(fmt::format("string {}", string(n.text))); },
           [&](const TupleExpr& n) {
             label("tuple");
             children(tree_.list(n.items));
@@ -256,23 +258,24 @@ void Viewer::see(PatternId p) {
     label(fmt::format("pattern {}", kind));
     children(tree_.list(items));
   };
-  std::visit(base::overload{
-                 [&](const NamePattern& n) { label("pattern name " + qualified(n.name)); },
-                 [&](const WildcardPattern&) { label("pattern _"); },
-                 [&](const IntPattern& n) { label(fmt::format("pattern integer {}", n.value)); },
-                 [&](const BoolPattern& n) { label(fmt::format("pattern boolean {}", n.value)); },
-                 [&](const CharPattern& n) {
-                   label("pattern character " + quote(static_cast<char>(n.value)));
-                 },
-                 [&](const StringPattern& n) { label("pattern string " + string(n.text)); },
-                 [&](const TuplePattern& n) { list("tuple", n.items); },
-                 [&](const SequencePattern& n) { list("sequence", n.items); },
-                 [&](const SetPattern& n) { list("set", n.items); },
-                 [&](const ConcatPattern& n) { pair("^", n.left, n.right); },
-                 [&](const DotPattern& n) { pair(".", n.left, n.right); },
-                 [&](const DoublePattern& n) { pair("@@", n.left, n.right); },
-             },
-             pattern.node);
+  std::visit(
+      base::overload{
+          [&](const NamePattern& n) { label(fmt::format("pattern name {}", qualified(n.name))); },
+          [&](const WildcardPattern&) { label("pattern _"); },
+          [&](const IntPattern& n) { label(fmt::format("pattern integer {}", n.value)); },
+          [&](const BoolPattern& n) { label(fmt::format("pattern boolean {}", n.value)); },
+          [&](const CharPattern& n) {
+            label(fmt::format("pattern character {}", quote(static_cast<char>(n.value))));
+          },
+          [&](const StringPattern& n) { label(fmt::format("pattern string {}", string(n.text))); },
+          [&](const TuplePattern& n) { list("tuple", n.items); },
+          [&](const SequencePattern& n) { list("sequence", n.items); },
+          [&](const SetPattern& n) { list("set", n.items); },
+          [&](const ConcatPattern& n) { pair("^", n.left, n.right); },
+          [&](const DotPattern& n) { pair(".", n.left, n.right); },
+          [&](const DoublePattern& n) { pair("@@", n.left, n.right); },
+      },
+      pattern.node);
 }
 
 void Viewer::see(StatementId s) {
@@ -305,7 +308,7 @@ void Viewer::see(TypeId t) {
     child(right);
   };
   std::visit(base::overload{
-                 [&](const NamedType& n) { label("type name " + qualified(n.name)); },
+                 [&](const NamedType& n) { label(fmt::format("type name {}", qualified(n.name))); },
                  [&](const SetType& n) {
                    label("type set");
                    child(n.element);
@@ -391,7 +394,7 @@ void Viewer::see(DeclId d) {
             }
           },
           [&](const AnnotationDecl& n) {
-            std::string text = "annotate " + names(n.names);
+            std::string text = fmt::format("annotate {}", names(n.names));
             for (const Constraint& c : tree_.list(n.constraints)) {
               text += fmt::format(" [{} {}]", name(c.constraint.name), name(c.variable.name));
             }
@@ -399,7 +402,7 @@ void Viewer::see(DeclId d) {
             child(n.type);
           },
           [&](const ChannelDecl& n) {
-            label("channel " + names(n.names));
+            label(fmt::format("channel {}", names(n.names)));
             child(n.type);
           },
           [&](const DatatypeDecl& n) {
@@ -413,14 +416,14 @@ void Viewer::see(DeclId d) {
             child(n.type);
           },
           [&](const ImportDecl& n) {
-            label((n.is_external ? "external " : "transparent ") + names(n.names));
+            label(fmt::format("{} {}", n.is_external ? "external" : "transparent", names(n.names)));
           },
           [&](const AssertDecl& n) {
             label("assert");
             view_.children.push_back({{}, &n.assertion});
           },
           [&](const PrintDecl& n) {
-            label("print " + string(n.text));
+            label(fmt::format("print {}", string(n.text)));
             child(n.expression);
           },
           [&](const ModuleDecl& n) {

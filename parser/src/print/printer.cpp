@@ -103,7 +103,7 @@ std::string quote(char c, char mark) {
   }
 }
 
-std::string quote(char c) { return "'" + quote(c, '\'') + "'"; }
+std::string quote(char c) { return fmt::format("'{}'", quote(c, '\'')); }
 
 std::string quote(std::string_view text) {
   std::string quoted = "\"";

@@ -30,11 +30,14 @@ MonitorModel make_monitor_model(lts::NormalLts normal, const TableOptions& optio
 enum class RunVerdict : std::uint8_t {
   conforms,
   violation,
-  inconclusive,  ///< the trace could not be read to its end, and there was no violation before
+  inconclusive,  ///< `RunResult::reason` says why there is no verdict
 };
 
 struct RunResult {
   RunVerdict verdict = RunVerdict::conforms;
+  /// Of an inconclusive run, without final period: the trace could not be read to its end (and
+  /// there was no violation before), or the model could not be made within its budgets.
+  std::string reason;
   std::uint64_t events_checked = 0;  ///< with the offending event and with ignored ones
   std::uint64_t events_ignored = 0;  ///< outside Alpha(M), in permissive mode
   /// How many events the trace has; none if it could not be read to its end.
@@ -50,7 +53,7 @@ struct RunResult {
   /// The events that the model permits at `state`, sorted, ✓ among them if it may terminate: before
   /// the offending event, or after the last event.
   std::vector<std::string> permitted;
-  State state;                           ///< of the table
+  State state;                           ///< of the table; none: the run did not begin
   std::vector<lts::State> model_states;  ///< the states of the process, ascending
 
   /// After a violation by an event outside Alpha(M): events with a similar name.
