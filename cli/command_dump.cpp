@@ -28,16 +28,15 @@ ExitCode dump(const Options& options, Console& console) {
   std::string text;
   if (options.phase == "tokens") {
     base::Interner names;
-    const parser::TokenStream tokens =
-        parser::lex(*file, input.sources, names, input.diagnostics);
+    const parser::TokenStream tokens = parser::lex(*file, input.sources, names, input.diagnostics);
     text = parser::dump_tokens(tokens, names, input.sources);
   } else if (options.phase == "core") {
     const auto script = semantics::Script::load(*file, input.sources, input.diagnostics);
     if (script != nullptr) text = script->core_listing();
   } else {
-    const parser::SyntaxTree tree =
-        parser::parse_script(*file, input.sources, input.diagnostics);
-    text = options.phase == "ast" ? parser::dump_ast(tree, input.sources) : parser::print_script(tree);
+    const parser::SyntaxTree tree = parser::parse_script(*file, input.sources, input.diagnostics);
+    text =
+        options.phase == "ast" ? parser::dump_ast(tree, input.sources) : parser::print_script(tree);
   }
   fmt::print("{}", text);
   console.print(input.diagnostics, input.sources);

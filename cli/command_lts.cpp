@@ -73,8 +73,7 @@ ExitCode make_lts(const Options& options, Console& console) {
   const auto script = load_script(options.file, input, console, code);
   if (script == nullptr) return code;
   const base::Limits limits = options.budget.limits();
-  const auto built =
-      build_lts(*script, options.process, "--process", limits, input, console, code);
+  const auto built = build_lts(*script, options.process, "--process", limits, input, console, code);
   if (!built) return code;
   std::optional<base::LimitReached> limit = built->limit;
   std::optional<lts::Normalisation> normalised;
@@ -122,7 +121,8 @@ Command add_lts(CLI::App& program) {
   app->footer(
       "Examples:\n"
       "  perentie lts corpus/rover/rover.csp -p ROVER_SYSTEM -o rover.aut\n"
-      "  perentie lts corpus/rover/rover.csp -p 'ROVER_ABORT' -o - -f dot --state-names | dot -Tsvg");
+      "  perentie lts corpus/rover/rover.csp -p 'ROVER_ABORT' -o - -f dot --state-names | dot "
+      "-Tsvg");
   return {app, [options](Console& console) { return make_lts(*options, console); }};
 }
 

@@ -190,11 +190,11 @@ ExitCode report_inconclusive(const Options& options, const monitor::RunSubject& 
 ExitCode run_monitor(const Options& options, Console& console) {
   Input input;
   const std::optional<Task> task = task_from(options, input, console);
-  if (!task) return ExitCode::usage;
+  if (!task) return input.failure(ExitCode::usage);
   Events events;
   if (!load_events(*task, input, events)) {
     console.print(input.diagnostics, input.sources);
-    return ExitCode::usage;
+    return input.failure(ExitCode::usage);
   }
 
   const auto start = std::chrono::steady_clock::now();

@@ -1,5 +1,5 @@
-// The subcommands: one file each. Adding a command registers its options; what it does runs after the
-// command line is read.
+// The subcommands: one file each. Adding a command registers its options; what it does runs after
+// the command line is read.
 #pragma once
 
 #include <functional>

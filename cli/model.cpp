@@ -1,6 +1,12 @@
 #include "model.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
+
 #include <fmt/format.h>
+
+#include "perentie/monitor/diagnostic_codes.hpp"
 
 namespace perentie::cli {
 namespace {
@@ -8,13 +14,33 @@ namespace {
 constexpr base::DiagnosticCode unreadable_file{"I001", base::Severity::error,
                                                "a file cannot be read"};
 
+// Three quarters of the machine's memory; 0 if the machine does not tell.
+std::uint64_t default_max_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES);
+  const long page_bytes = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_bytes <= 0) return 0;
+  return static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(page_bytes);
+}
+
+// Nothing is known of the process but that it has an initial state.
+lts::Exploration<semantics::ProcId> unexplored() {
+  lts::LtsBuilder builder(std::make_shared<const lts::LabelNames>(
+      lts::LabelNames{std::string(lts::tau_name), std::string(lts::tick_name)}));
+  builder.add_state();
+  return {.lts = std::move(builder).finish(lts::State{0}), .states = {}, .limit = {}};
+}
+
 }  // namespace
+
+BudgetOptions::BudgetOptions() : max_memory(default_max_memory()) {}
 
 void BudgetOptions::add_to(CLI::App& app) {
   app.add_option("--max-states", max_states, "Stop after this many states (inconclusive)")
       ->check(CLI::PositiveNumber)
       ->group("Budgets");
-  app.add_option("--max-memory", max_memory, "Stop at about this much memory, such as 2GB")
+  app.add_option("--max-memory", max_memory,
+                 "Stop at about this much memory, such as 2GB; default: three quarters of the\n"
+                 "machine's; 0: no limit")
       ->transform(CLI::AsSizeValue(false))
       ->group("Budgets");
   app.add_option("--timeout", timeout, "Stop after this many seconds")
@@ -43,13 +69,21 @@ std::optional<base::FileId> Input::read(const std::string& path) {
   return std::nullopt;
 }
 
+ExitCode Input::failure(ExitCode otherwise) const {
+  const auto& all = diagnostics.all();
+  const bool unreadable = std::any_of(all.begin(), all.end(), [](const base::Diagnostic& d) {
+    return d.code == &unreadable_file || d.code == &monitor::codes::unreadable_file;
+  });
+  return unreadable ? ExitCode::io_error : otherwise;
+}
+
 std::unique_ptr<semantics::Script> load_script(const std::string& path, Input& input,
                                                Console& console, ExitCode& code) {
   const auto file = input.read(path);
   std::unique_ptr<semantics::Script> script;
   if (file) script = semantics::Script::load(*file, input.sources, input.diagnostics);
   console.print(input.diagnostics, input.sources);
-  code = file ? ExitCode::model_error : ExitCode::io_error;
+  code = input.failure(ExitCode::model_error);
   return script;
 }
 
@@ -62,11 +96,7 @@ std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string
       script.process(process, input.diagnostics, origin);
   if (!initial) {
     console.print(input.diagnostics, input.sources);
-    if (const auto limit = script.limit()) {
-      console.error(fmt::format("inconclusive: {} while `{}` was evaluated",
-                                base::describe(*limit), process));
-      code = ExitCode::inconclusive;
-    }
+    if (const auto limit = script.limit()) return ProcessLts{unexplored(), limit};
     return std::nullopt;
   }
   semantics::TermSystem terms = script.terms(*initial, input.diagnostics);
@@ -78,9 +108,10 @@ std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string
   console.print(input.diagnostics, input.sources);
   if (result.exploration.failed && !result.limit) return std::nullopt;
   for (const std::string& compression : script.compressions_taken_as_identity()) {
-    console.note(fmt::format("`{}` is not applied yet: no answer depends on it, the number of "
-                             "states does",
-                             compression));
+    console.note(
+        fmt::format("`{}` is not applied yet: no answer depends on it, the number of "
+                    "states does",
+                    compression));
   }
   return result;
 }

@@ -19,9 +19,11 @@ namespace perentie::cli {
 
 /// The budgets of a run, as options.
 struct BudgetOptions {
-  std::uint64_t max_states = 0;   ///< 0: no limit
-  std::uint64_t max_memory = 0;   ///< bytes; 0: no limit
-  double timeout = 0;             ///< seconds; 0: no limit
+  std::uint64_t max_states = 0;  ///< 0: no limit
+  std::uint64_t max_memory;      ///< bytes; 0: no limit
+  double timeout = 0;            ///< seconds; 0: no limit
+
+  BudgetOptions();
 
   void add_to(CLI::App& app);
   base::Limits limits() const;
@@ -34,6 +36,8 @@ struct Input {
 
   /// Reads a file into the sources; an I001 diagnostic if it cannot be read.
   std::optional<base::FileId> read(const std::string& path);
+  /// What to exit with after errors: `io_error` if a file could not be read, else `otherwise`.
+  ExitCode failure(ExitCode otherwise) const;
 };
 
 /// Loads a script. Null: `code` says what to exit with, and the reason was printed.
@@ -49,7 +53,8 @@ struct ProcessLts {
 };
 
 /// Evaluates and explores. Nothing: `code` says what to exit with, and the reason was printed. A
-/// budget that ran out is a result, not a failure. `origin` is where the expression was written.
+/// budget that ran out is a result, not a failure: the LTS is then a part. `origin`
+/// is where the expression was written.
 std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string& process,
                                     const std::string& origin, const base::Limits& limits,
                                     Input& input, Console& console, ExitCode& code);
