@@ -72,6 +72,17 @@ std::string permitted_text(const RunResult& result) {
   return list_of(result.permitted);
 }
 
+// A line a state: terms are long.
+void append_position(std::string& text, const std::vector<std::string>& position) {
+  constexpr std::size_t max_states_shown = 3;
+  for (std::size_t i = 0; i < position.size() && i < max_states_shown; ++i) {
+    append_line(text, i == 0 ? "model at" : "or at", position[i]);
+  }
+  if (position.size() > max_states_shown) {
+    append_line(text, "", fmt::format("or at {} more states", position.size() - max_states_shown));
+  }
+}
+
 std::string checked_text(const RunResult& result, const RunSubject& subject) {
   std::string text = count_of(result.events_checked, "event");
   if (result.events_total) {
@@ -161,8 +172,7 @@ std::string to_text(const RunResult& result, const RunSubject& subject) {
     append_line(text, "last event", result.event);
   }
   append_line(text, violation ? "permitted" : "next", permitted_text(result));
-  if (!subject.model_position.empty())
-    append_line(text, "model at", list_of(subject.model_position));
+  append_position(text, subject.model_position);
   append_line(text, "checked", checked_text(result, subject));
   if (!result.events_total && violation) {
     append_line(text, "note",

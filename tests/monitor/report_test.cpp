@@ -127,6 +127,18 @@ TEST(ReportTest, TextAfterTheEndOfTheModel) {
   EXPECT_NE(text.find("  permitted  nothing: the model has stopped\n"), std::string::npos) << text;
 }
 
+TEST(ReportTest, TextOfAPositionInSeveralStates) {
+  RunSubject about = subject(Mode::strict);
+  about.model_position = {"A", "B", "C", "D", "E"};
+  const std::string text = to_text(run("start\n", Mode::strict), about);
+  EXPECT_NE(text.find("  model at   A\n"
+                      "  or at      B\n"
+                      "  or at      C\n"
+                      "             or at 2 more states\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(ReportTest, ARunThatDidNotBeginSaysOnlyWhy) {
   RunResult result;
   result.verdict = RunVerdict::inconclusive;
