@@ -9,9 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "perentie/base/overload.hpp"
 #include "pattern_names.hpp"
+#include "perentie/base/overload.hpp"
 #include "perentie/base/text.hpp"
+#include "perentie/parser/copy.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 
 namespace perentie::semantics {
@@ -33,13 +34,15 @@ struct Task {
     open_scope,
     close_scope,
     expr,
-    pattern,          // bind the variables of a pattern in the innermost scope
+    pattern,  // bind the variables of a pattern in the innermost scope
     statement,
     field,
-    declarations,     // declare and resolve a group of a `let`
-    bodies,           // resolve the bodies of one declaration whose names are bound
+    declarations,  // declare and resolve a group of a `let`
+    bodies,        // resolve the bodies of one declaration whose names are bound
     clause,
     open_module,
+    begin_copy,  // resolve a copy of a module: its errors are those of the module
+    end_copy,
   };
   Kind kind;
   std::uint32_t id = 0;
@@ -53,9 +56,13 @@ struct Resolver::Impl {
     declare_builtins(syntax_tree.names);
   }
 
-  const parser::SyntaxTree& tree;
+  parser::SyntaxTree& tree;  // grows by the copies of modules that instances are
   Resolution result;
   base::Diagnostics* diagnostics = nullptr;
+  // The errors in a copy of a module are dropped: they were found in the module itself.
+  base::Diagnostics errors_in_copies;
+  base::Diagnostics* sink_outside_copies = nullptr;
+  std::uint32_t copies_open = 0;
 
   // The current meaning of each name, and what to restore when scopes close.
   struct Undo {
@@ -66,6 +73,9 @@ struct Resolver::Impl {
   std::vector<Undo> undo_log;
   std::vector<std::size_t> scope_marks;
   std::unordered_map<NameId, SymbolId> importable;
+  // By DeclId of a module: its instances. Their bodies are resolved where the module is defined.
+  std::unordered_map<std::uint32_t, std::vector<DeclId>> instances_of;
+  std::vector<DeclId> modules_in_declaration;  // the outermost first
 
   std::vector<Task> tasks;
 
@@ -164,16 +174,42 @@ struct Resolver::Impl {
       const Task task = tasks.back();
       tasks.pop_back();
       switch (task.kind) {
-        case Task::Kind::open_scope: open_scope(); break;
-        case Task::Kind::close_scope: close_scope(); break;
-        case Task::Kind::expr: visit_expr(ExprId{task.id}); break;
-        case Task::Kind::pattern: bind_pattern(PatternId{task.id}); break;
-        case Task::Kind::statement: visit_statement(StatementId{task.id}); break;
-        case Task::Kind::field: visit_field(parser::FieldId{task.id}); break;
-        case Task::Kind::declarations: visit_declarations({task.id, task.extra}); break;
-        case Task::Kind::bodies: visit_bodies(DeclId{task.id}); break;
-        case Task::Kind::clause: visit_clause(DeclId{task.id}, task.extra); break;
-        case Task::Kind::open_module: open_module(SymbolId{task.id}); break;
+        case Task::Kind::open_scope:
+          open_scope();
+          break;
+        case Task::Kind::close_scope:
+          close_scope();
+          break;
+        case Task::Kind::expr:
+          visit_expr(ExprId{task.id});
+          break;
+        case Task::Kind::pattern:
+          bind_pattern(PatternId{task.id});
+          break;
+        case Task::Kind::statement:
+          visit_statement(StatementId{task.id});
+          break;
+        case Task::Kind::field:
+          visit_field(parser::FieldId{task.id});
+          break;
+        case Task::Kind::declarations:
+          visit_declarations({task.id, task.extra});
+          break;
+        case Task::Kind::bodies:
+          visit_bodies(DeclId{task.id});
+          break;
+        case Task::Kind::clause:
+          visit_clause(DeclId{task.id}, task.extra);
+          break;
+        case Task::Kind::open_module:
+          open_module(SymbolId{task.id});
+          break;
+        case Task::Kind::begin_copy:
+          begin_copy();
+          break;
+        case Task::Kind::end_copy:
+          end_copy();
+          break;
       }
     }
   }
@@ -229,6 +265,15 @@ struct Resolver::Impl {
       return {};
     }
     const ModuleMembers& members = result.modules.at(module.value);
+    if (members.is_parameterised) {
+      auto& report = diagnostics->report(
+          codes::module_without_instance, span,
+          fmt::format("the module `{}` takes parameters: its members belong to its instances",
+                      symbol.qualified));
+      report.notes.push_back(
+          {symbol.span, fmt::format("make one with `instance N = {}(..)`", symbol.qualified)});
+      return {};
+    }
     if (const auto found = members.exported.find(member); found != members.exported.end()) {
       return found->second;
     }
@@ -236,8 +281,8 @@ struct Resolver::Impl {
       auto& report = diagnostics->report(
           codes::private_member, span,
           fmt::format("`{}` is private to the module `{}`", text(member), symbol.qualified));
-      report.notes.push_back({result.symbols[found->second].span,
-                              "to make it visible, move it behind `exports`"});
+      report.notes.push_back(
+          {result.symbols[found->second].span, "to make it visible, move it behind `exports`"});
       return {};
     }
     auto& report = diagnostics->report(
@@ -384,12 +429,13 @@ struct Resolver::Impl {
   }
 
   void visit_statement(StatementId id) {
-    std::visit(overload{[&](const parser::Generator& s) {
-                          then({{Task::Kind::expr, s.source.value},
-                                {Task::Kind::pattern, s.pattern.value}});
-                        },
-                        [&](const parser::Filter& s) { then_expr(s.condition); }},
-               tree.statements[id].node);
+    std::visit(
+        overload{
+            [&](const parser::Generator& s) {
+              then({{Task::Kind::expr, s.source.value}, {Task::Kind::pattern, s.pattern.value}});
+            },
+            [&](const parser::Filter& s) { then_expr(s.condition); }},
+        tree.statements[id].node);
   }
 
   void visit_field(parser::FieldId id) {
@@ -452,8 +498,20 @@ struct Resolver::Impl {
   // Names that a group of declarations gives, before any body is resolved.
   struct Group {
     std::unordered_map<NameId, SymbolId> names;
-    std::string prefix;  // "M::" inside module M
+    std::string prefix;             // "M::" inside module M
+    const Group* parent = nullptr;  // of a module's members: the declarations around the module
+    bool is_parameterised = false;  // inside a parameterised module
   };
+
+  // What a name stands for where a group is declared, as far as it is declared by now.
+  SymbolId declared(const Group& innermost, NameId name) const {
+    for (const Group* group = &innermost; group != nullptr; group = group->parent) {
+      if (const auto found = group->names.find(name); found != group->names.end()) {
+        return found->second;
+      }
+    }
+    return binding(name);
+  }
 
   SymbolId declare(Group& group, NameId name, Span span, SymbolKind kind, DeclId decl,
                    std::uint32_t index = 0) {
@@ -466,14 +524,14 @@ struct Resolver::Impl {
                                   .index = index});
     const auto [entry, inserted] = group.names.emplace(name, symbol);
     if (!inserted) {
-      auto& report = diagnostics->report(
-          codes::multiple_definitions, span,
-          fmt::format("`{}` has more than one definition", text(name)));
+      auto& report =
+          diagnostics->report(codes::multiple_definitions, span,
+                              fmt::format("`{}` has more than one definition", text(name)));
       report.notes.push_back({result.symbols[entry->second].span, "it is defined here first"});
       if (kind == SymbolKind::function &&
           result.symbols[entry->second].kind == SymbolKind::function) {
-        report.notes.push_back({std::nullopt,
-                                "the clauses of a function must follow each other directly"});
+        report.notes.push_back(
+            {std::nullopt, "the clauses of a function must follow each other directly"});
       }
     }
     return symbol;
@@ -481,78 +539,74 @@ struct Resolver::Impl {
 
   void declare_names(Group& group, DeclList list) {
     // Channels and constructors first: a pattern that names one binds nothing (1.9.2).
-    for (const DeclId id : tree.list(list)) declare_types(group, id);
-    for (const DeclId id : tree.list(list)) declare_values(group, id);
+    // The tree grows with each instance, which moves its lists.
+    const std::vector<DeclId> ids(tree.list(list).begin(), tree.list(list).end());
+    for (const DeclId id : ids) declare_types(group, id);
+    for (const DeclId id : ids) declare_values(group, id);
   }
 
   void declare_types(Group& group, DeclId id) {
     const parser::Decl& decl = tree.decls[id];
-    std::visit(
-        overload{
-            [&](const parser::ChannelDecl& d) {
-              std::uint32_t index = 0;
-              for (const parser::Identifier& name : tree.list(d.names)) {
-                const SymbolId channel =
-                    declare(group, name.name, name.span, SymbolKind::channel, id, index++);
-                result.channels.push_back(channel);
-                result.members[id.value].push_back(channel);
-              }
-            },
-            [&](const parser::DatatypeDecl& d) {
-              result.of_decl[id.value] =
-                  declare(group, d.name.name, d.name.span, SymbolKind::datatype, id);
-              if (d.is_subtype) return;
-              std::uint32_t index = 0;
-              for (const parser::Constructor& c : tree.list(d.constructors)) {
-                result.members[id.value].push_back(
-                    declare(group, c.name.name, c.name.span, SymbolKind::constructor, id, index++));
-              }
-            },
-            [](const auto&) {},
-        },
-        decl.node);
+    std::visit(overload{
+                   [&](const parser::ChannelDecl& d) {
+                     std::uint32_t index = 0;
+                     for (const parser::Identifier& name : tree.list(d.names)) {
+                       const SymbolId channel =
+                           declare(group, name.name, name.span, SymbolKind::channel, id, index++);
+                       if (!group.is_parameterised) result.channels.push_back(channel);
+                       result.members[id.value].push_back(channel);
+                     }
+                   },
+                   [&](const parser::DatatypeDecl& d) {
+                     result.of_decl[id.value] =
+                         declare(group, d.name.name, d.name.span, SymbolKind::datatype, id);
+                     if (d.is_subtype) return;
+                     std::uint32_t index = 0;
+                     for (const parser::Constructor& c : tree.list(d.constructors)) {
+                       result.members[id.value].push_back(declare(
+                           group, c.name.name, c.name.span, SymbolKind::constructor, id, index++));
+                     }
+                   },
+                   [](const auto&) {},
+               },
+               decl.node);
   }
 
   void declare_values(Group& group, DeclId id) {
-    const parser::Decl& decl = tree.decls[id];
-    std::visit(
-        overload{
-            [&](const parser::PatternDecl& d) { declare_pattern(group, d.pattern, id); },
-            [&](const parser::FunctionDecl& d) {
-              const SymbolId symbol =
-                  declare(group, d.name.name, d.name.span, SymbolKind::function, id);
-              result.symbols[symbol].groups = tree.list(d.clauses)[0].group_sizes.count;
-              result.of_decl[id.value] = symbol;
-            },
-            [&](const parser::NametypeDecl& d) {
-              result.of_decl[id.value] =
-                  declare(group, d.name.name, d.name.span, SymbolKind::nametype, id);
-            },
-            [&](const parser::ImportDecl& d) {
-              for (const parser::Identifier& name : tree.list(d.names)) {
-                declare_import(group, d.is_external, name);
-              }
-            },
-            [&](const parser::ModuleDecl& d) { declare_module(group, d, id); },
-            [&](const parser::InstanceDecl& d) {
-              const SymbolId symbol =
-                  declare(group, d.name.name, d.name.span, SymbolKind::unsupported, id);
-              result.symbols[symbol].unsupported_construct = "module instances";
-            },
-            [&](const parser::TimedDecl& d) {
-              Group timed{.names = {}, .prefix = group.prefix};
-              declare_names(timed, d.declarations);
-              for (const auto& [name, symbol] : timed.names) {
-                if (result.symbols[symbol].kind != SymbolKind::channel) {
-                  result.symbols[symbol].kind = SymbolKind::unsupported;
-                  result.symbols[symbol].unsupported_construct = "timed sections";
-                }
-                group.names.emplace(name, symbol);
-              }
-            },
-            [](const auto&) {},
-        },
-        decl.node);
+    const parser::Decl decl = tree.decls[id];
+    std::visit(overload{
+                   [&](const parser::PatternDecl& d) { declare_pattern(group, d.pattern, id); },
+                   [&](const parser::FunctionDecl& d) {
+                     const SymbolId symbol =
+                         declare(group, d.name.name, d.name.span, SymbolKind::function, id);
+                     result.symbols[symbol].groups = tree.list(d.clauses)[0].group_sizes.count;
+                     result.of_decl[id.value] = symbol;
+                   },
+                   [&](const parser::NametypeDecl& d) {
+                     result.of_decl[id.value] =
+                         declare(group, d.name.name, d.name.span, SymbolKind::nametype, id);
+                   },
+                   [&](const parser::ImportDecl& d) {
+                     for (const parser::Identifier& name : tree.list(d.names)) {
+                       declare_import(group, d.is_external, name);
+                     }
+                   },
+                   [&](const parser::ModuleDecl& d) { declare_module(group, d, id); },
+                   [&](const parser::InstanceDecl& d) { declare_instance(group, d, id); },
+                   [&](const parser::TimedDecl& d) {
+                     Group timed{.names = {}, .prefix = group.prefix, .parent = &group};
+                     declare_names(timed, d.declarations);
+                     for (const auto& [name, symbol] : timed.names) {
+                       if (result.symbols[symbol].kind != SymbolKind::channel) {
+                         result.symbols[symbol].kind = SymbolKind::unsupported;
+                         result.symbols[symbol].unsupported_construct = "timed sections";
+                       }
+                       group.names.emplace(name, symbol);
+                     }
+                   },
+                   [](const auto&) {},
+               },
+               decl.node);
   }
 
   void declare_import(Group& group, bool is_external, const parser::Identifier& name) {
@@ -567,9 +621,9 @@ struct Resolver::Impl {
       return;
     }
     const std::string_view word = is_external ? "external" : "transparent";
-    auto& report = diagnostics->report(
-        codes::unknown_import, name.span,
-        fmt::format("there is no {} function `{}`", word, text(name.name)));
+    auto& report =
+        diagnostics->report(codes::unknown_import, name.span,
+                            fmt::format("there is no {} function `{}`", word, text(name.name)));
     if (found != importable.end()) {
       report.notes.push_back({std::nullopt, import_hint(result.symbols[found->second])});
       group.names.emplace(name.name, found->second);  // no second error where it is used
@@ -596,30 +650,123 @@ struct Resolver::Impl {
   }
 
   bool names_atom(const Group& group, NameId name) const {
-    const auto found = group.names.find(name);
-    const SymbolId symbol = found != group.names.end() ? found->second : binding(name);
+    const SymbolId symbol = declared(group, name);
     return symbol && is_atom(result.symbols[symbol].kind);
   }
+
+  // --- Modules --------------------------------------------------------------------------------
 
   void declare_module(Group& group, const parser::ModuleDecl& d, DeclId id) {
     const SymbolId symbol = declare(group, d.name.name, d.name.span, SymbolKind::module, id);
     result.of_decl[id.value] = symbol;
-    if (!d.parameters.empty()) {
-      result.symbols[symbol].kind = SymbolKind::unsupported;
-      result.symbols[symbol].unsupported_construct = "parameterised modules";
-      return;
-    }
-    Group members{.names = {}, .prefix = result.symbols[symbol].qualified + "::"};
+    Group members{.names = {},
+                  .prefix = result.symbols[symbol].qualified + "::",
+                  .parent = &group,
+                  .is_parameterised = group.is_parameterised || !d.parameters.empty()};
+    const std::vector<PatternId> parameters(tree.list(d.parameters).begin(),
+                                            tree.list(d.parameters).end());
+    for (const PatternId parameter : parameters) declare_pattern(members, parameter, id);
+    declare_members(members, symbol, id);
+    result.modules.at(symbol.value).is_parameterised = !parameters.empty();
+  }
+
+  // Declares the members of a module into `members`, which may have its parameters already.
+  void declare_members(Group& members, SymbolId symbol, DeclId module) {
+    const auto d = std::get<parser::ModuleDecl>(tree.decls[module].node);
+    modules_in_declaration.push_back(module);
     declare_names(members, d.private_declarations);
-    ModuleMembers table;
-    table.private_ = members.names;
+    ModuleMembers table{.exported = {}, .private_ = members.names, .decl = module};
     declare_names(members, d.exported_declarations);
+    modules_in_declaration.pop_back();
     check_annotations(d.private_declarations, members);
     check_annotations(d.exported_declarations, members);
     for (const auto& [name, member] : members.names) {
       if (!table.private_.contains(name)) table.exported.emplace(name, member);
     }
     result.modules.emplace(symbol.value, std::move(table));
+  }
+
+  // An instance is a copy of its module, beside the definitions of the parameters.
+  void declare_instance(Group& group, const parser::InstanceDecl& d, DeclId id) {
+    const SymbolId symbol = declare(group, d.name.name, d.name.span, SymbolKind::module, id);
+    result.of_decl[id.value] = symbol;
+    const SymbolId module = module_to_instantiate(group, d, symbol);
+    if (!module) {
+      result.symbols[symbol].kind = SymbolKind::unsupported;  // no second error where it is used
+      result.symbols[symbol].unsupported_construct = "instances of what is no module";
+      return;
+    }
+    const DeclId original = result.modules.at(module.value).decl;
+    ModuleInstance instance{.module = parser::copy_declaration(tree, original), .parameters = {}};
+    const auto copy = std::get<parser::ModuleDecl>(tree.decls[instance.module].node);
+    for (std::uint32_t i = 0; i < d.arguments.count; ++i) {
+      instance.parameters.push_back(
+          tree.decls.add({d.module_span, parser::PatternDecl{tree.list(copy.parameters)[i],
+                                                             tree.list(d.arguments)[i]}}));
+    }
+    make_room();
+    Group members{.names = {},
+                  .prefix = result.symbols[symbol].qualified + "::",
+                  .parent = &group,
+                  .is_parameterised = group.is_parameterised};
+    for (const DeclId parameter : instance.parameters) {
+      const auto definition = std::get<parser::PatternDecl>(tree.decls[parameter].node);
+      declare_pattern(members, definition.pattern, parameter);
+    }
+    begin_copy();
+    declare_members(members, symbol, instance.module);
+    end_copy();
+    instances_of[original.value].push_back(id);
+    result.instances.emplace(id.value, std::move(instance));
+  }
+
+  void begin_copy() {
+    if (copies_open++ == 0) sink_outside_copies = std::exchange(diagnostics, &errors_in_copies);
+  }
+  void end_copy() {
+    if (--copies_open == 0) diagnostics = sink_outside_copies;
+  }
+
+  // The module that an instance is to be made of; none if it cannot be, which is reported.
+  SymbolId module_to_instantiate(const Group& group, const parser::InstanceDecl& d,
+                                 SymbolId instance) {
+    const auto parts = tree.list(d.module);
+    SymbolId module = declared(group, parts[0]);
+    if (!module || module == instance) {
+      auto& report = diagnostics->report(codes::not_in_scope, d.module_span,
+                                         fmt::format("`{}` is not in scope", text(parts[0])));
+      report.notes.push_back({std::nullopt, "an instance must come after its module"});
+      return {};
+    }
+    for (std::size_t i = 1; i < parts.size() && module; ++i) {
+      module = lookup_member(module, parts[i], d.module_span);
+    }
+    if (!module) return {};
+    const auto found = result.modules.find(module.value);
+    if (found == result.modules.end()) {
+      // A module whose members are being declared is not in the table yet.
+      const bool is_around = std::find(modules_in_declaration.begin(), modules_in_declaration.end(),
+                                       result.symbols[module].decl) != modules_in_declaration.end();
+      const std::string_view qualified = result.symbols[module].qualified;
+      if (is_around) {
+        diagnostics->report(
+            codes::bad_instance, d.module_span,
+            fmt::format("the module `{}` cannot hold an instance of itself", qualified));
+      } else {
+        diagnostics->report(codes::module_as_value, d.module_span,
+                            fmt::format("`{}` is not a module", qualified));
+      }
+      return {};
+    }
+    const auto& original = std::get<parser::ModuleDecl>(tree.decls[found->second.decl].node);
+    if (original.parameters.count == d.arguments.count) return module;
+    auto& report = diagnostics->report(
+        codes::bad_instance, d.module_span,
+        fmt::format("the module `{}` takes {} parameter{}, but gets {}",
+                    result.symbols[module].qualified, original.parameters.count,
+                    original.parameters.count == 1 ? "" : "s", d.arguments.count));
+    report.notes.push_back({result.symbols[module].span, "it is defined here"});
+    return {};
   }
 
   void bind_all(const std::unordered_map<NameId, SymbolId>& names) {
@@ -681,17 +828,30 @@ struct Resolver::Impl {
             [&](const parser::NametypeDecl& d) { then_expr(d.type); },
             [&](const parser::AssertDecl& d) { visit_assertion(d.assertion); },
             [&](const parser::PrintDecl& d) { then_expr(d.expression); },
-            [&](const parser::ModuleDecl& d) {
-              const SymbolId module = result.of_decl[id.value];
-              if (result.symbols[module].kind != SymbolKind::module) return;
-              tasks.push_back({K::close_scope});
-              then_all(K::bodies, tree.list(d.exported_declarations));
-              then_all(K::bodies, tree.list(d.private_declarations));
-              tasks.push_back({K::open_module, module.value});
+            [&](const parser::ModuleDecl&) {
+              for (const DeclId instance : instances_of[id.value]) {
+                tasks.push_back({K::end_copy});
+                visit_module(result.of_decl[instance.value]);
+                tasks.push_back({K::begin_copy});
+              }
+              visit_module(result.of_decl[id.value]);
             },
+            [&](const parser::InstanceDecl& d) { then_all(K::expr, tree.list(d.arguments)); },
             [](const auto&) {},
         },
         tree.decls[id].node);
+  }
+
+  // The parameters' patterns bind nothing here, but may name constructors to match.
+  void visit_module(SymbolId module) {
+    using K = Task::Kind;
+    const auto& d =
+        std::get<parser::ModuleDecl>(tree.decls[result.modules.at(module.value).decl].node);
+    tasks.push_back({K::close_scope});
+    then_all(K::bodies, tree.list(d.exported_declarations));
+    then_all(K::bodies, tree.list(d.private_declarations));
+    then_all(K::pattern, tree.list(d.parameters));
+    tasks.push_back({K::open_module, module.value});
   }
 
   void visit_datatype(DeclId id, const parser::DatatypeDecl& d) {
@@ -703,9 +863,9 @@ struct Resolver::Impl {
       if (!symbol) {
         report_not_in_scope(c.name.name, c.name.span);
       } else if (result.symbols[symbol].kind != SymbolKind::constructor) {
-        diagnostics->report(codes::not_in_scope, c.name.span,
-                            fmt::format("`{}` is not a constructor of a datatype",
-                                        text(c.name.name)));
+        diagnostics->report(
+            codes::not_in_scope, c.name.span,
+            fmt::format("`{}` is not a constructor of a datatype", text(c.name.name)));
       }
     }
   }

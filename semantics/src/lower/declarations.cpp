@@ -75,9 +75,14 @@ void Lowering::declare_global(DeclId id) {
             });
           },
           [&](const parser::ModuleDecl& d) {
-            if (resolution_.symbols[resolution_.of_decl[id.value]].kind != SymbolKind::module) return;
-            for (const DeclId member : tree_.list(d.private_declarations)) declare_global(member);
-            for (const DeclId member : tree_.list(d.exported_declarations)) declare_global(member);
+            // A parameterised module has no values of its own.
+            if (!d.parameters.empty()) return;
+            declare_members(d);
+          },
+          [&](const parser::InstanceDecl&) {
+            const ModuleInstance& instance = resolution_.instances.at(id.value);
+            for (const DeclId parameter : instance.parameters) declare_global(parameter);
+            declare_members(std::get<parser::ModuleDecl>(tree_.decls[instance.module].node));
           },
           [&](const parser::TimedDecl& d) {
             // Only its channels are known outside: the rest is refused where it is used.
@@ -90,6 +95,11 @@ void Lowering::declare_global(DeclId id) {
           [](const auto&) {},
       },
       tree_.decls[id].node);
+}
+
+void Lowering::declare_members(const parser::ModuleDecl& module) {
+  for (const DeclId member : tree_.list(module.private_declarations)) declare_global(member);
+  for (const DeclId member : tree_.list(module.exported_declarations)) declare_global(member);
 }
 
 SymbolId Lowering::single_name(PatternId pattern) const {

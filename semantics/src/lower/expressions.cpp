@@ -34,45 +34,46 @@ bool is_process_operator(InfixOp op) {
 
 // What the code of an expression is known to leave, whatever its operands are.
 Lowering::Leaves Lowering::leaves(ExprId expr) const {
-  return std::visit(
-      overload{
-          [&](const parser::NameExpr&) {
-            const SymbolId symbol = resolution_.of_expr[expr.value];
-            if (!symbol) return Leaves::unknown;
-            const SymbolKind kind = resolution_.symbols[symbol].kind;
-            const bool is_atom = kind == SymbolKind::channel || kind == SymbolKind::constructor;
-            return is_atom ? Leaves::value : Leaves::unknown;
-          },
-          [](const parser::IntExpr&) { return Leaves::value; },
-          [](const parser::BoolExpr&) { return Leaves::value; },
-          [](const parser::CharExpr&) { return Leaves::value; },
-          [](const parser::StringExpr&) { return Leaves::value; },
-          [](const parser::MapExpr&) { return Leaves::value; },
-          [](const parser::NegateExpr&) { return Leaves::value; },
-          [](const parser::NotExpr&) { return Leaves::value; },
-          [](const parser::CollectionExpr& e) {
-            return e.kind == Collection::sequence ? Leaves::unknown : Leaves::value;
-          },
-          [](const parser::RangeExpr& e) {
-            return e.kind == Collection::sequence ? Leaves::unknown : Leaves::value;
-          },
-          [](const parser::InfixExpr& e) {
-            if (e.op == InfixOp::guard || is_process_operator(e.op)) return Leaves::process;
-            return e.op == InfixOp::concat ? Leaves::unknown : Leaves::value;
-          },
-          [](const parser::PrefixExpr&) { return Leaves::process; },
-          [](const parser::ParallelExpr&) { return Leaves::process; },
-          [](const parser::AlphabetParallelExpr&) { return Leaves::process; },
-          [](const parser::ExceptionExpr&) { return Leaves::process; },
-          [](const parser::SyncChoiceExpr&) { return Leaves::process; },
-          [](const parser::SyncInterruptExpr&) { return Leaves::process; },
-          [](const parser::LinkParallelExpr&) { return Leaves::process; },
-          [](const parser::RenameExpr&) { return Leaves::process; },
-          [](const parser::ReplicatedExpr&) { return Leaves::process; },
-          [](const parser::ReplicatedLinkExpr&) { return Leaves::process; },
-          [](const auto&) { return Leaves::unknown; },
-      },
-      tree_.exprs[expr].node);
+  return std::visit(overload{
+                        [&](const parser::NameExpr&) {
+                          const SymbolId symbol = resolution_.of_expr[expr.value];
+                          if (!symbol) return Leaves::unknown;
+                          const SymbolKind kind = resolution_.symbols[symbol].kind;
+                          const bool is_atom =
+                              kind == SymbolKind::channel || kind == SymbolKind::constructor;
+                          return is_atom ? Leaves::value : Leaves::unknown;
+                        },
+                        [](const parser::IntExpr&) { return Leaves::value; },
+                        [](const parser::BoolExpr&) { return Leaves::value; },
+                        [](const parser::CharExpr&) { return Leaves::value; },
+                        [](const parser::StringExpr&) { return Leaves::value; },
+                        [](const parser::MapExpr&) { return Leaves::value; },
+                        [](const parser::NegateExpr&) { return Leaves::value; },
+                        [](const parser::NotExpr&) { return Leaves::value; },
+                        [](const parser::CollectionExpr& e) {
+                          return e.kind == Collection::sequence ? Leaves::unknown : Leaves::value;
+                        },
+                        [](const parser::RangeExpr& e) {
+                          return e.kind == Collection::sequence ? Leaves::unknown : Leaves::value;
+                        },
+                        [](const parser::InfixExpr& e) {
+                          if (e.op == InfixOp::guard || is_process_operator(e.op))
+                            return Leaves::process;
+                          return e.op == InfixOp::concat ? Leaves::unknown : Leaves::value;
+                        },
+                        [](const parser::PrefixExpr&) { return Leaves::process; },
+                        [](const parser::ParallelExpr&) { return Leaves::process; },
+                        [](const parser::AlphabetParallelExpr&) { return Leaves::process; },
+                        [](const parser::ExceptionExpr&) { return Leaves::process; },
+                        [](const parser::SyncChoiceExpr&) { return Leaves::process; },
+                        [](const parser::SyncInterruptExpr&) { return Leaves::process; },
+                        [](const parser::LinkParallelExpr&) { return Leaves::process; },
+                        [](const parser::RenameExpr&) { return Leaves::process; },
+                        [](const parser::ReplicatedExpr&) { return Leaves::process; },
+                        [](const parser::ReplicatedLinkExpr&) { return Leaves::process; },
+                        [](const auto&) { return Leaves::unknown; },
+                    },
+                    tree_.exprs[expr].node);
 }
 
 void Lowering::canonical(ExprId expr) {
@@ -91,27 +92,26 @@ void Lowering::thunk(ExprId expr) {
 // What costs nothing and cannot fail is pushed as it is; everything else becomes a thunk.
 void Lowering::lazy(ExprId expr) {
   span_ = tree_.exprs[expr].span;
-  std::visit(
-      overload{
-          [&](const parser::NameExpr&) {
-            const SymbolId symbol = resolution_.of_expr[expr.value];
-            const bool is_variable = symbol && symbol.value < locations_.size() &&
-                                     (locations_[symbol.value].place == Place::local ||
-                                      locations_[symbol.value].place == Place::global);
-            if (is_variable) {
-              load_symbol(symbol);
-            } else {
-              thunk(expr);
-            }
-          },
-          [&](const parser::IntExpr& e) { emit_value(values_.make_int(e.value)); },
-          [&](const parser::BoolExpr& e) { emit_value(values_.make_bool(e.value)); },
-          [&](const parser::CharExpr& e) { emit_value(values_.make_char(e.value)); },
-          [&](const parser::StringExpr&) { value(expr); },
-          [&](const parser::LambdaExpr& e) { lambda(expr, e); },
-          [&](const auto&) { thunk(expr); },
-      },
-      tree_.exprs[expr].node);
+  std::visit(overload{
+                 [&](const parser::NameExpr&) {
+                   const SymbolId symbol = resolution_.of_expr[expr.value];
+                   const bool is_variable = symbol && symbol.value < locations_.size() &&
+                                            (locations_[symbol.value].place == Place::local ||
+                                             locations_[symbol.value].place == Place::global);
+                   if (is_variable) {
+                     load_symbol(symbol);
+                   } else {
+                     thunk(expr);
+                   }
+                 },
+                 [&](const parser::IntExpr& e) { emit_value(values_.make_int(e.value)); },
+                 [&](const parser::BoolExpr& e) { emit_value(values_.make_bool(e.value)); },
+                 [&](const parser::CharExpr& e) { emit_value(values_.make_char(e.value)); },
+                 [&](const parser::StringExpr&) { value(expr); },
+                 [&](const parser::LambdaExpr& e) { lambda(expr, e); },
+                 [&](const auto&) { thunk(expr); },
+             },
+             tree_.exprs[expr].node);
 }
 
 void Lowering::value(ExprId expr, Tail tail) {
@@ -120,134 +120,133 @@ void Lowering::value(ExprId expr, Tail tail) {
   const base::Span span = tree_.exprs[expr].span;
   span_ = span;
   bool finished = false;  // the branches have returned themselves
-  std::visit(
-      overload{
-          [&](const parser::NameExpr&) {
-            const SymbolId symbol = resolution_.of_expr[expr.value];
-            if (symbol) name(symbol);
-          },
-          [&](const parser::IntExpr& e) { emit_value(values_.make_int(e.value)); },
-          [&](const parser::BoolExpr& e) { emit_value(values_.make_bool(e.value)); },
-          [&](const parser::CharExpr& e) { emit_value(values_.make_char(e.value)); },
-          [&](const parser::StringExpr& e) {
-            emit_value(values_.make_string(tree_.names[e.text]));
-          },
-          [&](const parser::TupleExpr& e) {
-            for (const ExprId item : tree_.list(e.items)) lazy(item);
-            span_ = span;
-            emit(Op::make_tuple, e.items.count);
-          },
-          [&](const parser::MapExpr& e) {
-            const auto keys = tree_.list(e.keys);
-            const auto entries = tree_.list(e.values);
-            for (std::size_t i = 0; i < keys.size(); ++i) {
-              canonical(keys[i]);
-              canonical(entries[i]);
-            }
-            span_ = span;
-            emit(Op::make_map, e.keys.count);
-          },
-          [&](const parser::CollectionExpr& e) {
-            if (e.kind == Collection::sequence && !e.statements.empty()) {
-              if (tail == Tail::no) {
-                thunk(expr);
-                emit(Op::force);
-                return;
-              }
-              finished = true;
-            }
-            collection(e);
-          },
-          [&](const parser::RangeExpr& e) {
-            if (e.kind == Collection::sequence && !e.statements.empty()) {
-              if (tail == Tail::no) {
-                thunk(expr);
-                emit(Op::force);
-                return;
-              }
-              finished = true;
-            }
-            range(e);
-          },
-          [&](const parser::ApplyExpr&) { apply(expr); },
-          [&](const parser::LambdaExpr& e) { lambda(expr, e); },
-          [&](const parser::LetExpr& e) {
-            let_scope(e);
-            value(e.body, tail);
-            if (tail == Tail::no) emit(Op::leave);
-            close_scope();
-            finished = tail == Tail::yes;
-          },
-          [&](const parser::IfExpr& e) {
-            Label otherwise;
-            Label end;
-            value(e.condition);
-            span_ = tree_.exprs[e.condition].span;
-            emit_jump(Op::jump_if_false, otherwise);
-            value(e.then_branch, tail);
-            if (tail == Tail::no) emit_jump(Op::jump, end);
-            place(otherwise);
-            value(e.else_branch, tail);
-            place(end);
-            finished = tail == Tail::yes;
-          },
-          [&](const parser::NegateExpr& e) {
-            value(e.operand);
-            span_ = span;
-            emit(Op::negate);
-          },
-          [&](const parser::NotExpr& e) {
-            value(e.operand);
-            span_ = span;
-            emit(Op::logical_not);
-          },
-          [&](const parser::LengthExpr& e) {
-            load_symbol(prelude_.length);
-            lazy(e.operand);
-            span_ = span;
-            emit(Op::call, 1);
-          },
-          [&](const parser::InfixExpr&) { infix_chain(expr); },
-          [&](const parser::PrefixExpr&) { prefix(expr); },
-          [&](const parser::ParallelExpr& e) {
-            three(e.left, e.alphabet, e.right, ProcKind::parallel);
-          },
-          [&](const parser::ExceptionExpr& e) {
-            three(e.left, e.alphabet, e.right, ProcKind::exception);
-          },
-          [&](const parser::SyncChoiceExpr& e) {
-            three(e.left, e.alphabet, e.right, ProcKind::sync_choice);
-          },
-          [&](const parser::SyncInterruptExpr& e) {
-            three(e.left, e.alphabet, e.right, ProcKind::sync_interrupt);
-          },
-          [&](const parser::AlphabetParallelExpr& e) {
-            process(e.left);
-            canonical(e.left_alphabet);
-            canonical(e.right_alphabet);
-            process(e.right);
-            span_ = span;
-            emit(Op::alphabet_parallel);
-          },
-          [&](const parser::LinkParallelExpr& e) {
-            process(e.left);
-            process(e.right);
-            ties(e.links);
-            span_ = span;
-            emit(Op::link_parallel);
-          },
-          [&](const parser::RenameExpr& e) {
-            process(e.process);
-            ties(e.pairs);
-            span_ = span;
-            emit(Op::rename);
-          },
-          [&](const parser::ReplicatedExpr& e) { replicated(e); },
-          [&](const parser::ReplicatedLinkExpr& e) { replicated_link(e); },
-          [](const parser::WildcardExpr&) {},
-          [](const parser::CommunicationExpr&) {},
-      },
-      tree_.exprs[expr].node);
+  std::visit(overload{
+                 [&](const parser::NameExpr&) {
+                   const SymbolId symbol = resolution_.of_expr[expr.value];
+                   if (symbol) name(symbol);
+                 },
+                 [&](const parser::IntExpr& e) { emit_value(values_.make_int(e.value)); },
+                 [&](const parser::BoolExpr& e) { emit_value(values_.make_bool(e.value)); },
+                 [&](const parser::CharExpr& e) { emit_value(values_.make_char(e.value)); },
+                 [&](const parser::StringExpr& e) {
+                   emit_value(values_.make_string(tree_.names[e.text]));
+                 },
+                 [&](const parser::TupleExpr& e) {
+                   for (const ExprId item : tree_.list(e.items)) lazy(item);
+                   span_ = span;
+                   emit(Op::make_tuple, e.items.count);
+                 },
+                 [&](const parser::MapExpr& e) {
+                   const auto keys = tree_.list(e.keys);
+                   const auto entries = tree_.list(e.values);
+                   for (std::size_t i = 0; i < keys.size(); ++i) {
+                     canonical(keys[i]);
+                     canonical(entries[i]);
+                   }
+                   span_ = span;
+                   emit(Op::make_map, e.keys.count);
+                 },
+                 [&](const parser::CollectionExpr& e) {
+                   if (e.kind == Collection::sequence && !e.statements.empty()) {
+                     if (tail == Tail::no) {
+                       thunk(expr);
+                       emit(Op::force);
+                       return;
+                     }
+                     finished = true;
+                   }
+                   collection(e);
+                 },
+                 [&](const parser::RangeExpr& e) {
+                   if (e.kind == Collection::sequence && !e.statements.empty()) {
+                     if (tail == Tail::no) {
+                       thunk(expr);
+                       emit(Op::force);
+                       return;
+                     }
+                     finished = true;
+                   }
+                   range(e);
+                 },
+                 [&](const parser::ApplyExpr&) { apply(expr); },
+                 [&](const parser::LambdaExpr& e) { lambda(expr, e); },
+                 [&](const parser::LetExpr& e) {
+                   let_scope(e);
+                   value(e.body, tail);
+                   if (tail == Tail::no) emit(Op::leave);
+                   close_scope();
+                   finished = tail == Tail::yes;
+                 },
+                 [&](const parser::IfExpr& e) {
+                   Label otherwise;
+                   Label end;
+                   value(e.condition);
+                   span_ = tree_.exprs[e.condition].span;
+                   emit_jump(Op::jump_if_false, otherwise);
+                   value(e.then_branch, tail);
+                   if (tail == Tail::no) emit_jump(Op::jump, end);
+                   place(otherwise);
+                   value(e.else_branch, tail);
+                   place(end);
+                   finished = tail == Tail::yes;
+                 },
+                 [&](const parser::NegateExpr& e) {
+                   value(e.operand);
+                   span_ = span;
+                   emit(Op::negate);
+                 },
+                 [&](const parser::NotExpr& e) {
+                   value(e.operand);
+                   span_ = span;
+                   emit(Op::logical_not);
+                 },
+                 [&](const parser::LengthExpr& e) {
+                   load_symbol(prelude_.length);
+                   lazy(e.operand);
+                   span_ = span;
+                   emit(Op::call, 1);
+                 },
+                 [&](const parser::InfixExpr&) { infix_chain(expr); },
+                 [&](const parser::PrefixExpr&) { prefix(expr); },
+                 [&](const parser::ParallelExpr& e) {
+                   three(e.left, e.alphabet, e.right, ProcKind::parallel);
+                 },
+                 [&](const parser::ExceptionExpr& e) {
+                   three(e.left, e.alphabet, e.right, ProcKind::exception);
+                 },
+                 [&](const parser::SyncChoiceExpr& e) {
+                   three(e.left, e.alphabet, e.right, ProcKind::sync_choice);
+                 },
+                 [&](const parser::SyncInterruptExpr& e) {
+                   three(e.left, e.alphabet, e.right, ProcKind::sync_interrupt);
+                 },
+                 [&](const parser::AlphabetParallelExpr& e) {
+                   process(e.left);
+                   canonical(e.left_alphabet);
+                   canonical(e.right_alphabet);
+                   process(e.right);
+                   span_ = span;
+                   emit(Op::alphabet_parallel);
+                 },
+                 [&](const parser::LinkParallelExpr& e) {
+                   process(e.left);
+                   process(e.right);
+                   ties(e.links);
+                   span_ = span;
+                   emit(Op::link_parallel);
+                 },
+                 [&](const parser::RenameExpr& e) {
+                   process(e.process);
+                   ties(e.pairs);
+                   span_ = span;
+                   emit(Op::rename);
+                 },
+                 [&](const parser::ReplicatedExpr& e) { replicated(e); },
+                 [&](const parser::ReplicatedLinkExpr& e) { replicated_link(e); },
+                 [](const parser::WildcardExpr&) {},
+                 [](const parser::CommunicationExpr&) {},
+             },
+             tree_.exprs[expr].node);
   span_ = span;
   if (!finished) finish(tail);
   --nesting_;
@@ -335,8 +334,7 @@ void Lowering::infix_chain(ExprId expr) {
 const parser::CollectionExpr* Lowering::literal_sequence(const parser::InfixExpr& infix) const {
   if (infix.op != InfixOp::concat) return nullptr;
   const auto* e = std::get_if<parser::CollectionExpr>(&tree_.exprs[infix.left].node);
-  const bool is_literal =
-      e != nullptr && e->kind == Collection::sequence && e->statements.empty();
+  const bool is_literal = e != nullptr && e->kind == Collection::sequence && e->statements.empty();
   return is_literal ? e : nullptr;
 }
 
@@ -344,31 +342,51 @@ namespace {
 
 ProcKind process_kind(InfixOp op) {
   switch (op) {
-    case InfixOp::sequential: return ProcKind::sequential;
-    case InfixOp::sliding_choice: return ProcKind::sliding_choice;
-    case InfixOp::interrupt: return ProcKind::interrupt;
-    case InfixOp::external_choice: return ProcKind::external_choice;
-    case InfixOp::internal_choice: return ProcKind::internal_choice;
-    case InfixOp::interleave: return ProcKind::interleave;
-    case InfixOp::hide: return ProcKind::hide;
-    default: return ProcKind::project;
+    case InfixOp::sequential:
+      return ProcKind::sequential;
+    case InfixOp::sliding_choice:
+      return ProcKind::sliding_choice;
+    case InfixOp::interrupt:
+      return ProcKind::interrupt;
+    case InfixOp::external_choice:
+      return ProcKind::external_choice;
+    case InfixOp::internal_choice:
+      return ProcKind::internal_choice;
+    case InfixOp::interleave:
+      return ProcKind::interleave;
+    case InfixOp::hide:
+      return ProcKind::hide;
+    default:
+      return ProcKind::project;
   }
 }
 
 Op arithmetic(InfixOp op) {
   switch (op) {
-    case InfixOp::multiply: return Op::multiply;
-    case InfixOp::divide: return Op::divide;
-    case InfixOp::modulo: return Op::modulo;
-    case InfixOp::add: return Op::add;
-    case InfixOp::subtract: return Op::subtract;
-    case InfixOp::equal: return Op::equal;
-    case InfixOp::not_equal: return Op::equal;
-    case InfixOp::less: return Op::less;
-    case InfixOp::less_equal: return Op::less_equal;
-    case InfixOp::greater: return Op::greater;
-    case InfixOp::greater_equal: return Op::greater_equal;
-    default: break;
+    case InfixOp::multiply:
+      return Op::multiply;
+    case InfixOp::divide:
+      return Op::divide;
+    case InfixOp::modulo:
+      return Op::modulo;
+    case InfixOp::add:
+      return Op::add;
+    case InfixOp::subtract:
+      return Op::subtract;
+    case InfixOp::equal:
+      return Op::equal;
+    case InfixOp::not_equal:
+      return Op::equal;
+    case InfixOp::less:
+      return Op::less;
+    case InfixOp::less_equal:
+      return Op::less_equal;
+    case InfixOp::greater:
+      return Op::greater;
+    case InfixOp::greater_equal:
+      return Op::greater_equal;
+    default:
+      break;
   }
   PERENTIE_CHECK(false, "an infix operator without meaning in an expression");
   return Op::pop;
@@ -491,9 +509,9 @@ void Lowering::collection(const parser::CollectionExpr& e) {
       span_ = span;
     };
     if (!statements.empty()) {
-      sequence_comprehension(statements, [&] { push_items(); }, [&] {
-        emit(Op::make_list, static_cast<std::uint32_t>(items.size()));
-      });
+      sequence_comprehension(
+          statements, [&] { push_items(); },
+          [&] { emit(Op::make_list, static_cast<std::uint32_t>(items.size())); });
       return;
     }
     push_items();
@@ -543,7 +561,8 @@ void Lowering::range(const parser::RangeExpr& e) {
     emit(Op::call, e.last ? 2 : 1);
   };
   if (statements.empty()) return sequence();
-  sequence_comprehension(statements, [&] { sequence(); }, [&] { emit(Op::append); });
+  sequence_comprehension(
+      statements, [&] { sequence(); }, [&] { emit(Op::append); });
 }
 
 // --- Statements ---------------------------------------------------------------------------------
@@ -581,14 +600,14 @@ void Lowering::strict_loop(std::span<const StatementId> statements, bool over_se
              tree_.statements[statements[0]].node);
 }
 
-// A lazy comprehension `<items | statements>` as one block. Each generator has a scope that holds the
-// sequence still to go through and a thunk for what follows when it is exhausted; each binding has a
-// scope that holds the rest of the sequence. The code for one element ends by returning a cell whose
-// tail is a thunk that goes on from there (Wadler's translation of list comprehensions).
+// A lazy comprehension `<items | statements>` as one block. Each generator has a scope that holds
+// the sequence still to go through and a thunk for what follows when it is exhausted; each binding
+// has a scope that holds the rest of the sequence. The code for one element ends by returning a
+// cell whose tail is a thunk that goes on from there (Wadler's translation of list comprehensions).
 struct Lowering::SequenceLoop {
   std::uint32_t source_slot = 0;
   std::uint32_t follow_slot = 0;
-  std::uint32_t rest_slot = 0;   // in the binding's scope
+  std::uint32_t rest_slot = 0;  // in the binding's scope
   Address next = 0;
   std::vector<Address> resume_uses;  // `make_thunk`s that want the block which goes on
   Label resume;                      // jumps there

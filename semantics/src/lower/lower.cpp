@@ -48,9 +48,9 @@ void Lowering::place(const Label& label) {
 
 bool Lowering::too_deep(ExprId expr) {
   if (nesting_ < max_nesting) return false;
-  diagnostics_.report(codes::nested_too_deeply, tree_.exprs[expr].span,
-                      fmt::format("this expression is nested more than {} levels deep",
-                                  max_nesting));
+  diagnostics_.report(
+      codes::nested_too_deeply, tree_.exprs[expr].span,
+      fmt::format("this expression is nested more than {} levels deep", max_nesting));
   return true;
 }
 
@@ -84,9 +84,9 @@ std::uint32_t Lowering::add_variable(SymbolId symbol) {
 }
 
 std::uint32_t Lowering::global_slot(SymbolId symbol) const {
-  PERENTIE_CHECK(symbol.value < locations_.size() &&
-                     locations_[symbol.value].place == Place::global,
-                 "a global symbol without a slot");
+  PERENTIE_CHECK(
+      symbol.value < locations_.size() && locations_[symbol.value].place == Place::global,
+      "a global symbol without a slot");
   return locations_[symbol.value].slot;
 }
 

@@ -93,6 +93,7 @@ class Lowering {
   std::uint32_t new_global(GlobalInit init);
   void global_thunk(SymbolId symbol, std::function<void()> emit_value);
   void declare_global(parser::DeclId id);
+  void declare_members(const parser::ModuleDecl& module);
   void declare_global_pattern(const parser::PatternDecl& decl);
   void pattern_variable(parser::PatternId pattern, SymbolId variable,
                         const std::function<void()>& load_source);

@@ -41,54 +41,53 @@ void Lowering::pattern(PatternId id, Label& fail) {
     emit_value(v);
     emit_jump(Op::match_value, fail);
   };
-  std::visit(
-      overload{
-          [&](const parser::NamePattern&) {
-            const SymbolId symbol = resolution_.of_pattern[id.value];
-            if (!symbol) return;  // an error, reported
-            const SymbolKind kind = resolution_.symbols[symbol].kind;
-            if (kind == SymbolKind::channel || kind == SymbolKind::constructor) {
-              literal(values_.make_atom(symbol));
-            } else if (kind == SymbolKind::unsupported) {
-              emit(Op::unsupported, symbol.value);
-            } else {
-              emit(Op::store, add_variable(symbol));
-            }
-          },
-          [](const parser::WildcardPattern&) {},
-          [&](const parser::IntPattern& p) { literal(values_.make_int(p.value)); },
-          [&](const parser::BoolPattern& p) { literal(values_.make_bool(p.value)); },
-          [&](const parser::CharPattern& p) { literal(values_.make_char(p.value)); },
-          [&](const parser::StringPattern& p) {
-            literal(values_.make_string(tree_.names[p.text]));
-          },
-          [&](const parser::TuplePattern& p) {
-            emit(Op::force);
-            emit(Op::match_tuple, p.items.count);
-            match_stacked(tree_.list(p.items), fail);
-          },
-          [&](const parser::SetPattern& p) {
-            emit(Op::canon);
-            if (p.items.empty()) {
-              emit_jump(Op::match_empty_set, fail);
-            } else {
-              emit_jump(Op::match_single_set, fail);
-              pattern(tree_.list(p.items)[0], fail);
-            }
-          },
-          [&](const parser::SequencePattern&) { sequence_pattern(id, fail); },
-          [&](const parser::ConcatPattern&) { sequence_pattern(id, fail); },
-          [&](const parser::DotPattern&) { dot_pattern(id, fail); },
-          [&](const parser::DoublePattern& p) {
-            const std::uint32_t slot = add_slot();
-            emit(Op::store, slot);
-            emit(Op::load, slot);
-            pattern(p.left, fail);
-            emit(Op::load, slot);
-            pattern(p.right, fail);
-          },
-      },
-      tree_.patterns[id].node);
+  std::visit(overload{
+                 [&](const parser::NamePattern&) {
+                   const SymbolId symbol = resolution_.of_pattern[id.value];
+                   if (!symbol) return;  // an error, reported
+                   const SymbolKind kind = resolution_.symbols[symbol].kind;
+                   if (kind == SymbolKind::channel || kind == SymbolKind::constructor) {
+                     literal(values_.make_atom(symbol));
+                   } else if (kind == SymbolKind::unsupported) {
+                     emit(Op::unsupported, symbol.value);
+                   } else {
+                     emit(Op::store, add_variable(symbol));
+                   }
+                 },
+                 [](const parser::WildcardPattern&) {},
+                 [&](const parser::IntPattern& p) { literal(values_.make_int(p.value)); },
+                 [&](const parser::BoolPattern& p) { literal(values_.make_bool(p.value)); },
+                 [&](const parser::CharPattern& p) { literal(values_.make_char(p.value)); },
+                 [&](const parser::StringPattern& p) {
+                   literal(values_.make_string(tree_.names[p.text]));
+                 },
+                 [&](const parser::TuplePattern& p) {
+                   emit(Op::force);
+                   emit(Op::match_tuple, p.items.count);
+                   match_stacked(tree_.list(p.items), fail);
+                 },
+                 [&](const parser::SetPattern& p) {
+                   emit(Op::canon);
+                   if (p.items.empty()) {
+                     emit_jump(Op::match_empty_set, fail);
+                   } else {
+                     emit_jump(Op::match_single_set, fail);
+                     pattern(tree_.list(p.items)[0], fail);
+                   }
+                 },
+                 [&](const parser::SequencePattern&) { sequence_pattern(id, fail); },
+                 [&](const parser::ConcatPattern&) { sequence_pattern(id, fail); },
+                 [&](const parser::DotPattern&) { dot_pattern(id, fail); },
+                 [&](const parser::DoublePattern& p) {
+                   const std::uint32_t slot = add_slot();
+                   emit(Op::store, slot);
+                   emit(Op::load, slot);
+                   pattern(p.left, fail);
+                   emit(Op::load, slot);
+                   pattern(p.right, fail);
+                 },
+             },
+             tree_.patterns[id].node);
 }
 
 void Lowering::match(const SequenceItem& item, Label& fail) {
@@ -205,10 +204,9 @@ void Lowering::dot_pattern(PatternId id, Label& fail) {
   DotItems descriptor;
   std::vector<PatternId> taken;
   for (const PatternId item : flatten_dots(id)) {
-    const SymbolId symbol =
-        std::holds_alternative<parser::NamePattern>(tree_.patterns[item].node)
-            ? resolution_.of_pattern[item.value]
-            : SymbolId{};
+    const SymbolId symbol = std::holds_alternative<parser::NamePattern>(tree_.patterns[item].node)
+                                ? resolution_.of_pattern[item.value]
+                                : SymbolId{};
     const bool is_atom = symbol && (resolution_.symbols[symbol].kind == SymbolKind::channel ||
                                     resolution_.symbols[symbol].kind == SymbolKind::constructor);
     descriptor.items.push_back(is_atom ? symbol : SymbolId{});

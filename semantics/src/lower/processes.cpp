@@ -1,4 +1,5 @@
-// Lowering of process expressions: prefixes with their fields, operators with sets, replicated forms.
+// Lowering of process expressions: prefixes with their fields, operators with sets, replicated
+// forms.
 #include <algorithm>
 
 #include "lower.hpp"
@@ -143,8 +144,8 @@ void Lowering::communication(const parser::PrefixExpr& e) {
   emit(Op::acc_process, static_cast<std::uint32_t>(ProcKind::internal_choice), 1);
 }
 
-// With a partial event on the stack: `leaf` for each way the fields extend it. The last field of the
-// prefix (`nothing_follows`) takes all remaining components (4.3.5).
+// With a partial event on the stack: `leaf` for each way the fields extend it. The last field of
+// the prefix (`nothing_follows`) takes all remaining components (4.3.5).
 void Lowering::field_loop(std::span<const FieldId> fields, bool nothing_follows, const Emit& leaf) {
   if (fields.empty()) return leaf();
   const parser::Field& field = tree_.fields[fields[0]];
@@ -179,13 +180,20 @@ namespace {
 
 ProcKind process_kind(ReplicatedOp op) {
   switch (op) {
-    case ReplicatedOp::sequential: return ProcKind::sequential;
-    case ReplicatedOp::external_choice: return ProcKind::external_choice;
-    case ReplicatedOp::internal_choice: return ProcKind::internal_choice;
-    case ReplicatedOp::interleave: return ProcKind::interleave;
-    case ReplicatedOp::parallel: return ProcKind::parallel;
-    case ReplicatedOp::alphabet_parallel: return ProcKind::alphabet_parallel;
-    case ReplicatedOp::sync_choice: return ProcKind::sync_choice;
+    case ReplicatedOp::sequential:
+      return ProcKind::sequential;
+    case ReplicatedOp::external_choice:
+      return ProcKind::external_choice;
+    case ReplicatedOp::internal_choice:
+      return ProcKind::internal_choice;
+    case ReplicatedOp::interleave:
+      return ProcKind::interleave;
+    case ReplicatedOp::parallel:
+      return ProcKind::parallel;
+    case ReplicatedOp::alphabet_parallel:
+      return ProcKind::alphabet_parallel;
+    case ReplicatedOp::sync_choice:
+      return ProcKind::sync_choice;
   }
   return ProcKind::stop;
 }
