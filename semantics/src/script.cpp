@@ -52,9 +52,21 @@ void Script::Impl::load_prelude(base::Diagnostics& diagnostics) {
              .length = function("length"),
              .from = function("from_"),
              .from_to = function("from_to_"),
-             .equal_sequences = function("equal_sequences_")};
+             .equal_sequences = function("equal_sequences_"),
+             .timed_stop = function("timed_stop_"),
+             .timed_skip = function("timed_skip_"),
+             .wait = function("WAIT"),
+             .timed_priority = function("timed_priority")};
   lowering.emplace(tree, resolver.result(), prelude, values, program, diagnostics);
   lowering->declarations(declarations);
+  // FDR's names for the timed constants; the event is bound where a section uses the functions.
+  auto& symbols = resolver.result().symbols;
+  symbols[prelude.timed_stop].qualified = "STOP";
+  symbols[prelude.timed_skip].qualified = "SKIP";
+  for (const SymbolId symbol : {prelude.wait, prelude.timed_priority}) {
+    symbols[symbol].groups = 1;
+    symbols[symbol].is_process = true;
+  }
   program.prelude_end = static_cast<Address>(program.code.size());
 }
 

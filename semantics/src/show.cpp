@@ -1,6 +1,7 @@
 // Printing works through a stack of pieces still to print, since data and terms can be deep.
 #include "perentie/semantics/show.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -241,7 +242,15 @@ class Printer {
     then_list("", operands, separator, "");
   }
 
-  std::string event_set(EventSetId set) const { return brief_events(context_->events.events(set)); }
+  // In the order of values: that of first use depends on what was evaluated before.
+  std::string event_set(EventSetId set) const {
+    const auto members = context_->events.events(set);
+    std::vector<EventId> events(members.begin(), members.end());
+    std::sort(events.begin(), events.end(), [&](EventId a, EventId b) {
+      return values_.compare(context_->events.value(a), context_->events.value(b)) < 0;
+    });
+    return brief_events(events);
+  }
 
   std::string brief_events(std::span<const EventId> events) const {
     Printer printer(values_, resolution_, context_, max_length_);
@@ -287,7 +296,11 @@ class Printer {
       pieces.emplace_back(std::string(i == 1 ? "(" : ", "));
       pieces.emplace_back(ValueId{words[i]});
     }
-    if (words.size() > 1) pieces.emplace_back(std::string(")"));
+    if (words.size() > 1) {
+      pieces.emplace_back(std::string(")"));
+    } else if (context_->names.takes_arguments(ValueId{words[0]})) {
+      pieces.emplace_back(std::string("()"));
+    }
     then(std::move(pieces));
   }
 

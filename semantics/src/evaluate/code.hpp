@@ -68,12 +68,13 @@ struct ScopeInfo {
 
 /// A function, a lambda, or (with no groups) a constant whose value is a process.
 struct FunctionInfo {
-  SymbolId symbol = {};  ///< none: a lambda
+  SymbolId symbol = {};  ///< none: a lambda; of the state before a timed prefix: the definition around
   base::Span span = {};
   std::vector<std::uint32_t> group_sizes = {};
   std::vector<ScopeId> group_scopes = {};
   Address entry = 0;
   bool is_process = false;
+  bool is_timed_prefix = false;  ///< `X = tock -> X [] e -> P` (2.10.4)
   std::vector<bool> ignored = {};  ///< of the last group: arguments that no clause looks at
 };
 

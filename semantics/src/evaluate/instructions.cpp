@@ -22,6 +22,7 @@ void Machine::step(Instruction in) {
       (*frame_.as_object())[frame_slots + in.b] = word;
       break;
     }
+    case Op::copy: push(top(in.b)); break;
     case Op::pop: pop(); break;
     case Op::force: force_top(); break;
     case Op::canon:
@@ -112,6 +113,12 @@ void Machine::step(Instruction in) {
     case Op::greater_equal: compare(in.op, at); break;
 
     case Op::acc_begin: accumulators_.emplace_back(); break;
+    case Op::acc_if_empty:
+      if (accumulators_.back().empty()) {
+        accumulators_.pop_back();
+        pc_ = in.b;
+      }
+      break;
     case Op::acc_add: accumulators_.back().push_back(value_at(0).bits); pop(); break;
     case Op::acc_add_all: {
       const ValueId set = require_set(value_at(0));
@@ -537,6 +544,31 @@ void Machine::fail_no_match(FunctionId id) {
                    resolution_.symbols[function.symbol].qualified, arguments));
 }
 
+void Machine::delayed_prefix() {
+  const EventId event = builder_.event(value_at(3));
+  const EventId tock = builder_.event(value_at(2));
+  const std::int64_t delay = integer_at(1, "the time of an event");
+  if (delay < 0) {
+    fail(codes::bad_time, fmt::format("the time that `{}` takes is {}, but must not be negative",
+                                      show_value(show_context(), value_at(3)), delay));
+  }
+  ProcId process = process_at(0);
+  for (std::int64_t i = 0; i < delay; ++i) process = processes_.prefix(tock, process);
+  replace(4, processes_.prefix(event, process));
+}
+
+// The timed STOP adds nothing to a choice that time does not resolve.
+void Machine::timed_choice() {
+  const ProcId stop = process_at(0);
+  const ProcId left = process_at(3);
+  const ProcId right = process_at(2);
+  if (left == stop || right == stop) {
+    replace(4, left == stop ? right : left);
+  } else {
+    replace(4, builder_.with_alphabet(ProcKind::sync_choice, left, value_at(1), right));
+  }
+}
+
 void Machine::fail_unsupported(SymbolId id) {
   const Symbol& symbol = resolution_.symbols[id];
   const bool is_builtin = !symbol.span;
@@ -555,6 +587,8 @@ void Machine::process_instruction(Instruction in) {
     case Op::prefix:
       replace(2, processes_.prefix(builder_.event(value_at(1)), process_at(0)));
       break;
+    case Op::delayed_prefix: delayed_prefix(); break;
+    case Op::timed_choice: timed_choice(); break;
     case Op::event_set_prefix:
       replace(2, builder_.event_set_prefix(value_at(1), process_at(0)));
       break;

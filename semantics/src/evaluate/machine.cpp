@@ -82,8 +82,9 @@ std::optional<ProcId> Machine::unfold(ProcId call, base::Diagnostics& diagnostic
 
 std::size_t Machine::memory_bytes() const {
   return heap_.bytes() + values_.memory_bytes() + events_.memory_bytes() +
-         processes_.memory_bytes() + scopes_.memory_bytes() + control_.capacity() * sizeof(Control) +
-         operands_.capacity() * sizeof(Word) + unfolded_.size() * 4 * sizeof(void*);
+         processes_.memory_bytes() + scopes_.memory_bytes() +
+         control_.capacity() * sizeof(Control) + operands_.capacity() * sizeof(Word) +
+         unfolded_.size() * 4 * sizeof(void*);
 }
 
 // --- The loop -----------------------------------------------------------------------------------
@@ -202,9 +203,8 @@ void Machine::return_value() {
 // The fields of a channel or constructor, then the instruction again.
 bool Machine::need_fields(SymbolId symbol, Address retry_at) {
   if (!fields_in_progress_.insert(symbol.value).second) {
-    report({&codes::depends_on_itself,
-            fmt::format("the fields of `{}` depend on themselves",
-                        resolution_.symbols[symbol].qualified)});
+    report({&codes::depends_on_itself, fmt::format("the fields of `{}` depend on themselves",
+                                                   resolution_.symbols[symbol].qualified)});
     return false;
   }
   control_.push_back({ControlKind::retry, retry_at, 0, frame_});
@@ -271,10 +271,14 @@ Word Machine::settled(Word word) {
 std::string Machine::describe(Word word) {
   if (is_canonical(word)) return brief(values_, resolution_, to_value(word));
   switch (word.as_object()->kind) {
-    case ObjectKind::cell: return "a sequence";
-    case ObjectKind::tuple: return "a tuple";
-    case ObjectKind::closure: return "a function";
-    default: return "something not evaluated";
+    case ObjectKind::cell:
+      return "a sequence";
+    case ObjectKind::tuple:
+      return "a tuple";
+    case ObjectKind::closure:
+      return "a function";
+    default:
+      return "something not evaluated";
   }
 }
 
@@ -302,31 +306,61 @@ ProcId Machine::process_at(std::size_t below) {
 
 // --- Names --------------------------------------------------------------------------------------
 
+// The arguments that a frame holds, as `(1, 2)`.
+std::string Machine::frame_arguments(std::uint32_t scope) const {
+  std::string text;
+  for (const std::uint32_t word : scopes_.words(scope).subspan(2)) {
+    text += (text.empty() ? "" : ", ") + show_value(show_context(), ValueId{word});
+  }
+  return "(" + text + ")";
+}
+
 std::string Machine::scope_prefix(std::uint32_t scope) const {
+  const auto info_of = [&](std::uint32_t s) -> const ScopeInfo& {
+    return program_.scopes[ScopeId{scopes_.words(s)[0]}];
+  };
   std::string prefix;
-  for (; scope != 0; scope = scopes_.words(scope)[1]) {
-    const auto words = scopes_.words(scope);
-    const ScopeInfo& info = program_.scopes[ScopeId{words[0]}];
+  while (scope != 0) {
+    const ScopeInfo& info = info_of(scope);
+    std::string arguments = frame_arguments(scope);
+    scope = scopes_.words(scope)[1];
     if (info.kind == ScopeKind::let) continue;
-    std::string name = "ANNON";
+    // The argument groups of one call follow each other.
+    while (info.function && scope != 0 && info_of(scope).function == info.function) {
+      arguments = frame_arguments(scope) + arguments;
+      scope = scopes_.words(scope)[1];
+    }
+    std::string name = "ANNON" + arguments;
     if (info.function) {
       const SymbolId symbol = program_.functions[info.function].symbol;
-      name = symbol ? resolution_.symbols[symbol].qualified : "(\\";
+      name = symbol ? resolution_.symbols[symbol].qualified + arguments
+                    : "(\\" + arguments.substr(1, arguments.size() - 2) + " @ ..)";
     }
-    std::string arguments;
-    for (const std::uint32_t word : words.subspan(2)) {
-      arguments += (arguments.empty() ? "" : ", ") + show_value(show_context(), ValueId{word});
-    }
-    const bool is_lambda = name == "(\\";
-    prefix = (is_lambda ? name + arguments + " @ ..)" : name + "(" + arguments + ")") + "::" + prefix;
+    prefix = name + "::" + prefix;
   }
   return prefix;
 }
 
 std::string Machine::function_name(ValueId function) const {
   const FunctionInfo& info = program_.functions[FunctionId{values_.word(function, 0)}];
-  const std::string prefix = scope_prefix(values_.word(function, 2));
-  return prefix + (info.symbol ? resolution_.symbols[info.symbol].qualified : "(\\ ..)");
+  std::uint32_t scope = values_.word(function, 2);
+  std::string applied;  // the argument groups that it has already
+  for (std::uint32_t group = values_.word(function, 1); group > 0; --group) {
+    applied = frame_arguments(scope) + applied;
+    scope = scopes_.words(scope)[1];
+  }
+  const std::string prefix = scope_prefix(scope);
+  if (info.is_timed_prefix) {
+    const Symbol* owner = info.symbol ? &resolution_.symbols[info.symbol] : nullptr;
+    const bool is_constant = owner != nullptr && owner->kind == SymbolKind::constant;
+    return fmt::format("{}{}i{}", prefix, is_constant ? owner->qualified + "::" : "",
+                       values_.word(function, 0));
+  }
+  return prefix + (info.symbol ? resolution_.symbols[info.symbol].qualified : "(\\ ..)") + applied;
+}
+
+bool Machine::takes_arguments(ValueId function) const {
+  return !program_.functions[FunctionId{values_.word(function, 0)}].group_sizes.empty();
 }
 
 std::string Machine::call_name(ProcId call) const {

@@ -49,6 +49,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
   std::size_t memory_bytes() const;
 
   std::string function_name(ValueId function) const override;
+  bool takes_arguments(ValueId function) const override;
   std::string call_name(ProcId call) const override;
   base::Span definition_span(ProcId call) const override;
 
@@ -99,6 +100,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
   void unwind();
   void report(const EvaluationFailure& failure);
   base::Span failure_span() const;
+  std::string frame_arguments(std::uint32_t scope) const;
   std::string scope_prefix(std::uint32_t scope) const;
 
   // --- Operands ---------------------------------------------------------------------------------
@@ -194,6 +196,8 @@ class Machine final : public FunctionNames, public CallUnfolder {
   bool match_ends(const EndsPattern& pattern);
   bool match_dot(const DotItems& pattern);
   [[noreturn]] void fail_no_match(FunctionId function);
+  void delayed_prefix();
+  void timed_choice();
   [[noreturn]] void fail_unsupported(SymbolId symbol);
   void process_instruction(Instruction instruction);
   std::vector<Tie> accumulated_ties();

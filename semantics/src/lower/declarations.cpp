@@ -84,13 +84,14 @@ void Lowering::declare_global(DeclId id) {
             for (const DeclId parameter : instance.parameters) declare_global(parameter);
             declare_members(std::get<parser::ModuleDecl>(tree_.decls[instance.module].node));
           },
-          [&](const parser::TimedDecl& d) {
-            // Only its channels are known outside: the rest is refused where it is used.
-            for (const DeclId member : tree_.list(d.declarations)) {
-              if (std::holds_alternative<parser::ChannelDecl>(tree_.decls[member].node)) {
-                declare_global(member);
-              }
-            }
+          [&](const parser::TimedDecl&) {
+            timed_section(
+                id, [this](DeclId member) { declare_global(member); },
+                [this](ExprId duration) {
+                  const auto slot = static_cast<std::uint32_t>(program_.globals.size());
+                  global_thunk({}, [this, duration] { value(duration, Tail::yes); });
+                  return Location{Place::global, 0, slot};
+                });
           },
           [](const auto&) {},
       },
@@ -188,6 +189,16 @@ void Lowering::let_member(DeclId id) {
     program_.scopes[current_scope()].members.push_back({slot, true, function.value});
     return;
   }
+  if (std::holds_alternative<parser::TimedDecl>(decl.node)) {
+    timed_section(
+        id, [this](DeclId member) { let_member(member); },
+        [this](ExprId duration) {
+          const std::uint32_t slot = add_slot();
+          let_thunk(slot, [this, duration] { value(duration, Tail::yes); });
+          return Location{Place::local, depth(), slot};
+        });
+    return;
+  }
   const auto* d = std::get_if<parser::PatternDecl>(&decl.node);
   if (d == nullptr) return;  // annotations, imports
   if (const SymbolId symbol = single_name(d->pattern)) {
@@ -219,8 +230,9 @@ void Lowering::let_member(DeclId id) {
 FunctionId Lowering::add_process_constant(SymbolId symbol, ExprId value) {
   const FunctionId function = program_.functions.add(FunctionInfo{
       .symbol = symbol, .span = *resolution_.symbols[symbol].span, .is_process = true});
-  queue([this, function, value](Address entry) {
+  queue([this, symbol, function, value](Address entry) {
     program_.functions[function].entry = entry;
+    owner_ = symbol;
     process(value, Tail::yes);
   });
   return function;
@@ -248,8 +260,9 @@ FunctionId Lowering::add_function(SymbolId symbol, DeclId id) {
     info.group_scopes.push_back(program_.scopes.add(std::move(scope)));
   }
   program_.functions.add(std::move(info));
-  queue([this, function, id](Address entry) {
+  queue([this, symbol, function, id](Address entry) {
     program_.functions[function].entry = entry;
+    owner_ = symbol;
     function_block(function, std::get<parser::FunctionDecl>(tree_.decls[id].node));
   });
   return function;

@@ -95,7 +95,8 @@ void Lowering::lazy(ExprId expr) {
   std::visit(overload{
                  [&](const parser::NameExpr&) {
                    const SymbolId symbol = resolution_.of_expr[expr.value];
-                   const bool is_variable = symbol && symbol.value < locations_.size() &&
+                   const bool is_variable = symbol && !is_timed_builtin(symbol) &&
+                                            symbol.value < locations_.size() &&
                                             (locations_[symbol.value].place == Place::local ||
                                              locations_[symbol.value].place == Place::global);
                    if (is_variable) {
@@ -207,7 +208,7 @@ void Lowering::value(ExprId expr, Tail tail) {
                    emit(Op::call, 1);
                  },
                  [&](const parser::InfixExpr&) { infix_chain(expr); },
-                 [&](const parser::PrefixExpr&) { prefix(expr); },
+                 [&](const parser::PrefixExpr&) { is_timed() ? timed_prefix(expr) : prefix(expr); },
                  [&](const parser::ParallelExpr& e) {
                    three(e.left, e.alphabet, e.right, ProcKind::parallel);
                  },
@@ -223,12 +224,15 @@ void Lowering::value(ExprId expr, Tail tail) {
                  [&](const parser::AlphabetParallelExpr& e) {
                    process(e.left);
                    canonical(e.left_alphabet);
+                   add_tock();
                    canonical(e.right_alphabet);
+                   add_tock();
                    process(e.right);
                    span_ = span;
                    emit(Op::alphabet_parallel);
                  },
                  [&](const parser::LinkParallelExpr& e) {
+                   refuse_in_timed_section(span, "a linked parallel");
                    process(e.left);
                    process(e.right);
                    ties(e.links);
@@ -241,8 +245,13 @@ void Lowering::value(ExprId expr, Tail tail) {
                    span_ = span;
                    emit(Op::rename);
                  },
-                 [&](const parser::ReplicatedExpr& e) { replicated(e); },
-                 [&](const parser::ReplicatedLinkExpr& e) { replicated_link(e); },
+                 [&](const parser::ReplicatedExpr& e) {
+                   is_timed() ? timed_replicated(e) : replicated(e);
+                 },
+                 [&](const parser::ReplicatedLinkExpr& e) {
+                   refuse_in_timed_section(span, "a linked parallel");
+                   replicated_link(e);
+                 },
                  [](const parser::WildcardExpr&) {},
                  [](const parser::CommunicationExpr&) {},
              },
@@ -253,6 +262,7 @@ void Lowering::value(ExprId expr, Tail tail) {
 }
 
 void Lowering::name(SymbolId id) {
+  if (is_timed_builtin(id)) return apply_to_tock(id);
   const Symbol& symbol = resolution_.symbols[id];
   switch (symbol.kind) {
     case SymbolKind::builtin:
@@ -430,7 +440,9 @@ void Lowering::infix_right(const parser::InfixExpr& infix) {
       operation(Op::hide, static_cast<std::uint32_t>(process_kind(infix.op)));
       break;
     default:
-      if (is_process_operator(infix.op)) {
+      if (is_timed() && is_process_operator(infix.op)) {
+        timed_infix(infix.op, infix.right);
+      } else if (is_process_operator(infix.op)) {
         process(infix.right);
         operation(Op::process_binary, static_cast<std::uint32_t>(process_kind(infix.op)));
       } else {

@@ -133,9 +133,13 @@ void Lowering::emit_pending() {
     const Pending block = std::move(pending_.back());
     pending_.pop_back();
     scope_ = block.scope;
+    timed_ = block.timed;
+    owner_ = block.owner;
     block.emit(here());
   }
   scope_ = no_scope;
+  timed_ = not_timed;
+  owner_ = SymbolId{};
 }
 
 }  // namespace perentie::semantics

@@ -1,13 +1,14 @@
 // Step 5: from the resolved tree to core code.
 //
 // Every definition, thunk and function body becomes a block. Blocks that an expression needs are
-// queued and emitted after it, so lowering recurses only as deep as the source nests, and long chains
-// of operators not at all.
+// queued and emitted after it, so lowering recurses only as deep as the source nests, and long
+// chains of operators not at all.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "../evaluate/code.hpp"
@@ -21,6 +22,7 @@ namespace perentie::semantics {
 /// The functions of the prelude that stand behind operators and instructions.
 struct PreludeFunctions {
   SymbolId append, length, from, from_to, equal_sequences;
+  SymbolId timed_stop, timed_skip, wait, timed_priority;
 };
 
 class Lowering {
@@ -57,9 +59,18 @@ class Lowering {
   struct Label {
     std::vector<Address> uses;
   };
-  // A block still to be emitted, in the scope where it was found.
+  // A timed section: its time event, and where its time function is, if it has one.
+  struct TimedSection {
+    SymbolId tock;
+    Location duration;
+  };
+  using TimedIndex = std::uint32_t;
+  static constexpr TimedIndex not_timed = 0xFFFF'FFFFU;
+  // A block still to be emitted, in the surroundings where it was found.
   struct Pending {
     ScopeIndex scope;
+    TimedIndex timed;
+    SymbolId owner;
     std::function<void(Address entry)> emit;
   };
   enum class Tail : bool { no, yes };
@@ -74,7 +85,7 @@ class Lowering {
     if (tail == Tail::yes) emit(Op::ret);
   }
   void queue(std::function<void(Address)> emit_block) {
-    pending_.push_back({scope_, std::move(emit_block)});
+    pending_.push_back({scope_, timed_, owner_, std::move(emit_block)});
   }
   void emit_pending();
 
@@ -175,6 +186,21 @@ class Lowering {
   void replicated_link(const parser::ReplicatedLinkExpr& link);
   void ties(const parser::Ties& ties);
 
+  // Timed sections (2.10.4)
+  bool is_timed() const { return timed_ != not_timed; }
+  ValueId tock() const { return values_.make_atom(timed_sections_[timed_].tock); }
+  void timed_section(parser::DeclId id, const std::function<void(parser::DeclId)>& declare,
+                     const std::function<Location(parser::ExprId)>& declare_duration);
+  bool is_timed_builtin(SymbolId symbol) const;
+  void apply_to_tock(SymbolId function);
+  void push_tock_set();
+  void add_tock();
+  void timed_prefix(parser::ExprId expr);
+  void timed_prefix_body(FunctionId function, const parser::PrefixExpr& prefix);
+  void timed_infix(parser::InfixOp op, parser::ExprId right);
+  void timed_replicated(const parser::ReplicatedExpr& replicated);
+  void refuse_in_timed_section(base::Span span, std::string_view what);
+
   bool too_deep(parser::ExprId expr);
 
   const parser::SyntaxTree& tree_;
@@ -187,6 +213,9 @@ class Lowering {
   std::vector<Location> locations_;  // by symbol
   std::vector<StaticScope> static_scopes_;
   ScopeIndex scope_ = no_scope;
+  std::vector<TimedSection> timed_sections_;
+  TimedIndex timed_ = not_timed;
+  SymbolId owner_;  // the definition whose body is being lowered
   std::vector<Pending> pending_;
   base::Span span_;
   std::uint32_t nesting_ = 0;

@@ -23,6 +23,8 @@ void Lowering::three(ExprId left, ExprId set, ExprId right, ProcKind kind) {
   const base::Span span = span_;
   process(left);
   canonical(set);
+  // An exception is not thrown by the passing of time.
+  if (kind != ProcKind::exception) add_tock();
   process(right);
   span_ = span;
   emit(Op::process_ternary, static_cast<std::uint32_t>(kind));
@@ -43,7 +45,11 @@ void Lowering::guard(ExprId expr) {
   process(expr);
   emit_jump(Op::jump, end);
   place(stop);
-  emit(Op::call_builtin, static_cast<std::uint32_t>(Builtin::stop));
+  if (is_timed()) {
+    apply_to_tock(prelude_.timed_stop);
+  } else {
+    emit(Op::call_builtin, static_cast<std::uint32_t>(Builtin::stop));
+  }
   place(end);
 }
 

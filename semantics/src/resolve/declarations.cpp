@@ -104,17 +104,7 @@ void Resolver::Impl::declare_values(Group& group, DeclId id) {
                  },
                  [&](const parser::ModuleDecl& d) { declare_module(group, d, id); },
                  [&](const parser::InstanceDecl& d) { declare_instance(group, d, id); },
-                 [&](const parser::TimedDecl& d) {
-                   Group timed{.names = {}, .prefix = group.prefix, .parent = &group};
-                   declare_names(timed, d.declarations);
-                   for (const auto& [name, symbol] : timed.names) {
-                     if (result.symbols[symbol].kind != SymbolKind::channel) {
-                       result.symbols[symbol].kind = SymbolKind::unsupported;
-                       result.symbols[symbol].unsupported_construct = "timed sections";
-                     }
-                     group.names.emplace(name, symbol);
-                   }
-                 },
+                 [&](const parser::TimedDecl& d) { declare_names(group, d.declarations); },
                  [](const auto&) {},
              },
              decl.node);
@@ -226,6 +216,7 @@ void Resolver::Impl::visit_bodies(DeclId id) {
                    visit_module(result.of_decl[id.value]);
                  },
                  [&](const parser::InstanceDecl& d) { then_all(K::expr, tree.list(d.arguments)); },
+                 [&](const parser::TimedDecl& d) { visit_timed(id, d); },
                  [](const auto&) {},
              },
              tree.decls[id].node);
@@ -273,6 +264,32 @@ void Resolver::Impl::check_clauses(const parser::FunctionDecl& d) {
         codes::clause_mismatch, clause.span,
         fmt::format("this clause of `{}` takes other arguments than the first", text(d.name.name)));
     report.notes.push_back({clauses[0].span, "the first clause is here"});
+  }
+}
+
+// The time function is not inside the section that it belongs to.
+void Resolver::Impl::visit_timed(DeclId id, const parser::TimedDecl& d) {
+  using K = Task::Kind;
+  const auto name = tree.names.find("tock");
+  const SymbolId tock = name ? binding(*name) : SymbolId{};
+  const auto* channel =
+      tock ? std::get_if<parser::ChannelDecl>(&tree.decls[result.symbols[tock].decl].node)
+           : nullptr;
+  if (channel == nullptr || channel->type) {
+    diagnostics->report(codes::bad_timed_section, tree.decls[id].span,
+                        "a timed section needs the event `tock`: declare it with `channel tock`");
+  }
+  result.tocks[id.value] = tock;
+  tasks.push_back({K::close_scope});
+  then_all(K::bodies, tree.list(d.declarations));
+  tasks.push_back({K::open_timed});
+  then_expr(d.duration);
+}
+
+void Resolver::Impl::open_timed() {
+  open_scope();
+  for (const auto& [name, symbol] : importable) {
+    if (info(result.symbols[symbol].builtin).import == Import::timed) bind(name, symbol);
   }
 }
 

@@ -36,6 +36,7 @@ struct Task {
     bodies,        // resolve the bodies of one declaration whose names are bound
     clause,
     open_module,
+    open_timed,  // bind what only timed sections know
     begin_copy,  // resolve a copy of a module: its errors are those of the module
     end_copy,
   };
@@ -166,6 +167,8 @@ struct Resolver::Impl {
   void visit_assertion(const parser::Assertion& assertion);
   void check_clauses(const parser::FunctionDecl& d);
   void visit_clause(DeclId id, std::uint32_t index);
+  void visit_timed(DeclId id, const parser::TimedDecl& d);
+  void open_timed();
 
   // --- Modules --------------------------------------------------------------------------------
 

@@ -68,7 +68,12 @@ void Resolver::Impl::declare_builtins(base::Interner& names) {
 void Resolver::Impl::adopt_prelude() {
   for (const Undo& entry : std::vector<Undo>(undo_log)) {
     const SymbolId symbol = binding(entry.name);
-    if (!symbol || result.symbols[symbol].kind != SymbolKind::function) continue;
+    if (!symbol) continue;
+    if (result.symbols[symbol].kind == SymbolKind::builtin) {
+      // What the prelude itself imports goes out of scope again.
+      if (importable.contains(entry.name)) bindings[entry.name.value] = SymbolId{};
+      continue;
+    }
     const std::string_view name = text(entry.name);
     result.prelude.emplace(name, symbol);
     const auto row = std::find_if(builtin_table.begin(), builtin_table.end(),
@@ -101,6 +106,9 @@ void Resolver::Impl::report_not_in_scope(NameId name, Span span) {
 
 std::string Resolver::Impl::import_hint(const Symbol& symbol) {
   const Import import = info(symbol.builtin).import;
+  if (import == Import::timed) {
+    return fmt::format("`{}` is built in, but known in timed sections only", symbol.qualified);
+  }
   return fmt::format("`{0}` is built in: bring it into scope with `{1} {0}`", symbol.qualified,
                      import == Import::transparent ? "transparent" : "external");
 }

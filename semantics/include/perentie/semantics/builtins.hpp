@@ -23,8 +23,8 @@ enum class BuiltinKind : std::uint8_t {
   unsupported,  ///< known by name, not implemented yet
 };
 
-/// Which declaration brings the name into scope (CSPM reference 2.5.3).
-enum class Import : std::uint8_t { no, transparent, external, either };
+/// Which declaration brings the name into scope (CSPM reference 2.5.3, 2.10.3).
+enum class Import : std::uint8_t { no, transparent, external, either, timed };
 
 struct BuiltinInfo {
   std::string_view name;

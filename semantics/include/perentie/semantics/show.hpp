@@ -17,6 +17,8 @@ class FunctionNames {
   virtual ~FunctionNames() = default;
   /// Such as `P(1)::f` for a function defined inside P(1), `(\x @ ..)` for a lambda.
   virtual std::string function_name(ValueId function) const = 0;
+  /// Whether a call is written with parentheses, if only `f()`.
+  virtual bool takes_arguments(ValueId function) const = 0;
 };
 
 struct ShowContext {
