@@ -1,74 +1,81 @@
-# A thin front to CMake. `make help` lists what there is.
+# The short commands of this project; CMake does the work. `make help` lists them.
 #
-# Compilers are cached if ccache is installed. JOBS is how many compilers or tests run at once.
+# `make demo` and `make test` install the Debian packages that are missing (with sudo unless you are
+# root); all else leaves your machine alone. Everything that is made is made in build/.
 
-JOBS ?= $(shell nproc)
-BUILD_FLAGS = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-CTEST = ctest --output-on-failure --parallel $(JOBS)
-SOURCES = git ls-files '*.cpp' '*.hpp'
+jobs := $(shell nproc)
+perentie := build/release/perentie
+sources = $(shell git ls-files '*.cpp' '*.hpp')
 
-.DEFAULT_GOAL = release
-.PHONY: help packages release demo test check bench test-arm64 asan tsan fuzz format format-check \
-        tidy install clean
+# Compile through ccache if there is one, unless a launcher is already chosen.
+ccache := $(shell command -v ccache)
+ifneq ($(ccache),)
+export CMAKE_CXX_COMPILER_LAUNCHER ?= $(ccache)
+endif
 
-help:  ## this list
-	@sed -n 's/^\([a-z0-9-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
+build = cmake --preset $(1) $(3) >/dev/null && cmake --build --preset $(1) -j $(jobs) $(2)
+packages = cmake/install_packages.sh
 
-packages:
-	@cmake/install_packages.sh cmake/packages.txt
+.PHONY: perentie
+perentie:  ## build the program: build/release/perentie (the default)
+	@$(call build,release,--target perentie,-DPERENTIE_BUILD_TESTS=OFF)
 
-release: packages  ## (the default) the release program: build/release/perentie
-	@cmake --preset release $(BUILD_FLAGS) -DPERENTIE_BUILD_TESTS=OFF > build-release.log 2>&1 \
-	  || { cat build-release.log; rm build-release.log; exit 1; }
-	@rm build-release.log
-	cmake --build --preset release --target perentie --parallel $(JOBS)
+.PHONY: demo
+demo:  ## monitor two missions of a rover, one right, one wrong
+	@$(packages) program
+	@$(call build,release,--target perentie,-DPERENTIE_BUILD_TESTS=OFF)
+	@echo
+	@echo "# The rover's log against its model: every one of the 243 events is one that the model permits."
+	$(perentie) monitor corpus/rover/pass.yaml
+	@echo
+	@echo "# The same mission, but the sensor reads Red and the rover goes on to waypoint 1. After Red the"
+	@echo "# model permits only move.0, back to the entry. A violation: exit code 1."
+	$(perentie) monitor corpus/rover/red_ignored.yaml; test $$? -eq 1
 
-demo: release  ## build, and monitor two traces of a rover
-	@sh corpus/rover/demo.sh build/release/perentie
+.PHONY: test
+test:  ## build and run all tests
+	@$(packages) program test
+	@$(call build,test)
+	@cmake/run_tests.sh build/test $(jobs)
 
-test: packages  ## build and pass all tests
-	cmake --preset dev $(BUILD_FLAGS)
-	cmake --build --preset dev --parallel $(JOBS)
-	@cmake/run_tests.sh build/dev $(JOBS)
+.PHONY: test-arm64
+test-arm64:  ## cross-build for aarch64 and run the same tests under qemu
+	@$(packages) program test arm64
+	@cmake/arm64_sysroot.sh build/arm64-sysroot
+	@$(call build,arm64)
+	@cmake/run_tests.sh build/arm64 $(jobs)
 
-bench: packages  ## build and run the benchmarks (slow; figures: docs/performance.md)
-	cmake --preset release $(BUILD_FLAGS) -B build/bench -DPERENTIE_BUILD_TESTS=OFF \
-	  -DPERENTIE_BUILD_BENCHMARKS=ON
-	cmake --build build/bench --parallel $(JOBS)
-	@set -e; for bench in build/bench/tests/bench/*_bench; do \
-	  echo "== $$(basename $$bench)"; $$bench $(BENCH_FLAGS); done
+.PHONY: asan tsan
+asan tsan:  ## all tests with the address and undefined-behaviour, or the thread sanitizer
+	@$(packages) program test
+	@$(call build,$@)
+	@cmake/run_tests.sh build/$@ $(jobs)
 
-test-arm64: packages  ## cross-build for 64-bit ARM and pass the tests under qemu-user
-	@cmake/install_packages.sh cmake/packages_arm64.txt --foreign arm64
-	@cmake/build_rapidcheck_arm64.sh build/rapidcheck-arm64
-	cmake --preset release -B build/arm64 $(BUILD_FLAGS) \
-	  -DCMAKE_TOOLCHAIN_FILE=cmake/aarch64-linux-gnu.cmake \
-	  -DCMAKE_PREFIX_PATH=$(CURDIR)/build/rapidcheck-arm64
-	cmake --build build/arm64 --parallel $(JOBS)
-	@cmake/run_tests.sh build/arm64 $(JOBS)
+.PHONY: bench
+bench:  ## measure; docs/performance.md has the figures
+	@$(packages) program bench
+	@$(call build,release,,-DPERENTIE_BUILD_TESTS=OFF -DPERENTIE_BUILD_BENCHMARKS=ON)
+	@for program in build/release/tests/bench/*_bench; do echo "# $$program"; $$program || exit 1; done
 
-asan: packages  ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer
-	cmake --preset asan $(BUILD_FLAGS)
-	cmake --build --preset asan --parallel $(JOBS)
-	@cmake/run_tests.sh build/asan $(JOBS)
-
-tsan: packages  ## the tests under ThreadSanitizer
-	cmake --preset tsan $(BUILD_FLAGS)
-	cmake --build --preset tsan --parallel $(JOBS)
-	@cmake/run_tests.sh build/tsan $(JOBS)
-
-format:  ## format all sources (clang-format 14)
-	$(SOURCES) | xargs clang-format -i
-
+.PHONY: format format-check tidy
+format:  ## format all sources in place
+	@clang-format -i $(sources)
 format-check:  ## fail if a source is not formatted
-	$(SOURCES) | xargs clang-format --dry-run --Werror
+	@clang-format --dry-run -Werror $(sources)
+tidy:  ## clang-tidy over all sources
+	@$(packages) style
+	@cmake --preset test >/dev/null
+	@run-clang-tidy -quiet -p build/test -j $(jobs) "$(CURDIR)/(base|parser|semantics|lts|monitor|cli)/.*"
 
-tidy: packages  ## clang-tidy on all sources (slow)
-	cmake --preset dev $(BUILD_FLAGS)
-	run-clang-tidy -quiet -p build/dev -j $(JOBS)
+.PHONY: install
+install: perentie  ## install program, manual and examples; DESTDIR and PREFIX are honoured
+	@DESTDIR="$(DESTDIR)" cmake --install build/release $(if $(PREFIX),--prefix "$(PREFIX)")
 
-install: release  ## install the program (PREFIX=/usr/local)
-	cmake --install build/release $(if $(PREFIX),--prefix $(PREFIX))
+.PHONY: clean
+clean:  ## remove build/
+	@rm -rf build
 
-clean:  ## remove everything built
-	rm -rf build
+.PHONY: help
+help:  ## this list
+	@sed -n 's/^\([a-z][a-z0-9 -]*\):[^#]*## \(.*\)/\1|\2/p' Makefile | \
+	  awk -F'|' '{ printf "  make %-14s %s\n", $$1, $$2 }'

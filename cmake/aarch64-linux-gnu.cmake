@@ -1,8 +1,16 @@
-# Cross compilation for 64-bit ARM with Debian's compiler and multiarch packages; tests run under
-# qemu-user. Used by `make test-arm64`.
+# Toolchain: Debian's cross compiler for aarch64, libraries from PERENTIE_ARM64_SYSROOT (made by
+# arm64_sysroot.sh), programs run under qemu-user.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
 set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES PERENTIE_ARM64_SYSROOT)
+set(CMAKE_FIND_ROOT_PATH ${PERENTIE_ARM64_SYSROOT} /usr/aarch64-linux-gnu)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+
+# The loader and the C library are the cross compiler's; others are found by the build's rpaths.
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64 -L /usr/aarch64-linux-gnu)
