@@ -1,8 +1,8 @@
 // The core language: code for a small stack machine with call by need.
 //
 // A program is one array of instructions. Blocks begin at an address and end with `ret`; functions,
-// thunks and constants name the address of their block. Variables are slots of frames; a frame belongs
-// to a static scope and links to the frame of the enclosing one.
+// thunks and constants name the address of their block. Variables are slots of frames; a frame
+// belongs to a static scope and links to the frame of the enclosing one.
 #pragma once
 
 #include <cstdint>
@@ -63,18 +63,21 @@ struct ScopeInfo {
   /// (CSPM reference 3.8.1, 3.8.2). Argument slots come first.
   std::vector<std::uint32_t> identity = {};
   std::vector<LetMember> members = {};
-  FunctionId function = {};     ///< of `arguments`
+  FunctionId function = {};  ///< of `arguments`
+  SymbolId owner = {};       ///< the definition in whose body the scope is
 };
 
 /// A function, a lambda, or (with no groups) a constant whose value is a process.
 struct FunctionInfo {
-  SymbolId symbol = {};  ///< none: a lambda; of the state before a timed prefix: the definition around
+  SymbolId symbol = {};  ///< none: a lambda, or the state before a timed prefix
   base::Span span = {};
   std::vector<std::uint32_t> group_sizes = {};
   std::vector<ScopeId> group_scopes = {};
   Address entry = 0;
   bool is_process = false;
-  bool is_timed_prefix = false;  ///< `X = tock -> X [] e -> P` (2.10.4)
+  SymbolId owner = {};             ///< without `symbol`: the definition around
+  std::string parameters = {};     ///< of a lambda, as written
+  bool is_timed_prefix = false;    ///< `X = tock -> X [] e -> P` (2.10.4)
   std::vector<bool> ignored = {};  ///< of the last group: arguments that no clause looks at
 };
 
@@ -84,8 +87,8 @@ struct EndsPattern {
   std::uint32_t suffix = 0;
 };
 
-/// A dot pattern, flattened: an atom to match, or (none) one field to take; the last item that takes
-/// takes all remaining fields (1.9.5).
+/// A dot pattern, flattened: an atom to match, or (none) one field to take; the last item that
+/// takes takes all remaining fields (1.9.5).
 struct DotItems {
   std::vector<SymbolId> items;
 };
@@ -105,9 +108,11 @@ struct Program {
   std::vector<EndsPattern> ends_patterns;
   std::vector<DotItems> dot_patterns;
   std::vector<GlobalInit> globals;
-  /// The block that evaluates the declared fields of a channel or constructor, by symbol; absent for
-  /// those without data. It leaves a tuple of field sets.
+  /// The block that evaluates the declared fields of a channel or constructor, by symbol; absent
+  /// for those without data. It leaves a tuple of field sets.
   std::unordered_map<std::uint32_t, Address> field_types;
+  /// The definition around a definition in a `let`, by symbol.
+  std::unordered_map<std::uint32_t, SymbolId> owners;
   Address prelude_end = 0;  ///< code before this address belongs to the prelude
 };
 

@@ -1,9 +1,9 @@
 // The evaluator: runs core code on a stack machine with call by need.
 //
-// Nothing here recurses on the C++ stack in proportion to a script's data or recursion depth: calls,
-// forced thunks and complete evaluation are entries of the control stack. A block that ends hands its
-// value to the entry on top. Scopes that name processes and functions are identified by the values of
-// their pattern variables (`CanonicalScope`), which makes equal calls equal terms.
+// Nothing here recurses on the C++ stack in proportion to a script's data or recursion depth:
+// calls, forced thunks and complete evaluation are entries of the control stack. A block that ends
+// hands its value to the entry on top. Scopes that name processes and functions are identified by
+// the values of their pattern variables (`CanonicalScope`), which makes equal calls equal terms.
 #pragma once
 
 #include <optional>
@@ -54,9 +54,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
   base::Span definition_span(ProcId call) const override;
 
   ProcessBuilder& builder() { return builder_; }
-  ShowContext show_context() const {
-    return {values_, events_, processes_, resolution_, *this};
-  }
+  ShowContext show_context() const { return {values_, events_, processes_, resolution_, *this}; }
   /// Warnings that were noticed while evaluating, each once.
   const std::vector<Builtin>& compressions_seen() const { return compressions_; }
 
@@ -93,15 +91,16 @@ class Machine final : public FunctionNames, public CallUnfolder {
     std::vector<DataModel::Extension> restricted = {};              // of one with a set
   };
   std::optional<ValueId> run_in(Address entry, Word frame, base::Diagnostics& diagnostics);
-  bool execute();          // until the run ends; false: it failed
+  bool execute();  // until the run ends; false: it failed
   void step(Instruction instruction);
-  void return_value();     // the value on top goes to the innermost control entry
+  void return_value();  // the value on top goes to the innermost control entry
   void safepoint();
   void unwind();
   void report(const EvaluationFailure& failure);
   base::Span failure_span() const;
-  std::string frame_arguments(std::uint32_t scope) const;
-  std::string scope_prefix(std::uint32_t scope) const;
+  std::string frame_values(std::uint32_t scope) const;
+  SymbolId definition_around(SymbolId definition) const;
+  std::string scope_prefix(std::uint32_t scope, SymbolId innermost) const;
 
   // --- Operands ---------------------------------------------------------------------------------
 
@@ -152,7 +151,8 @@ class Machine final : public FunctionNames, public CallUnfolder {
   bool identify_slot(std::uint32_t done, Word frame, Word aim);
   void push_identity(Object* frame, std::uint32_t slot);
 
-  // --- Scopes, functions and calls (calls.cpp) ----------------------------------------------------
+  // --- Scopes, functions and calls (calls.cpp)
+  // ----------------------------------------------------
 
   Object* new_frame(ScopeId scope, Word parent);
   Object* frame_up(std::uint32_t hops) const;
@@ -171,7 +171,8 @@ class Machine final : public FunctionNames, public CallUnfolder {
   void force_top();
   [[noreturn]] static void fail_argument_count(std::size_t wanted, std::size_t given);
 
-  // --- Instructions (instructions.cpp) ------------------------------------------------------------
+  // --- Instructions (instructions.cpp)
+  // ------------------------------------------------------------
 
   static Word checked_integer(std::int64_t value, bool overflow);
   void arithmetic(Op op);
@@ -207,7 +208,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
 
   const Program& program_;
   const Resolution& resolution_;
-  std::uint32_t append_;           // the global slots of two functions of the prelude
+  std::uint32_t append_;  // the global slots of two functions of the prelude
   std::uint32_t equal_sequences_;
   ValueStore& values_;
   EventTable& events_;
@@ -226,9 +227,9 @@ class Machine final : public FunctionNames, public CallUnfolder {
   bool running_ = false;
 
   std::vector<Word> globals_;
-  base::TermTable scopes_;          // canonical scopes: {scope, parent, identity values..}
-  std::vector<Word> instances_;     // by canonical scope: its frame
-  std::unordered_map<std::uint32_t, ProcId> unfolded_;  // by call
+  base::TermTable scopes_;       // canonical scopes: {scope, parent, identity values..}
+  std::vector<Word> instances_;  // by canonical scope: its frame
+  std::unordered_map<std::uint32_t, ProcId> unfolded_;    // by call
   std::unordered_set<std::uint32_t> fields_in_progress_;  // by symbol
   std::vector<Builtin> compressions_;
 

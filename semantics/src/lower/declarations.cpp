@@ -4,6 +4,7 @@
 #include "../pattern_names.hpp"
 #include "lower.hpp"
 #include "perentie/base/overload.hpp"
+#include "perentie/parser/print.hpp"
 
 namespace perentie::semantics {
 
@@ -28,8 +29,9 @@ std::uint32_t Lowering::new_global(GlobalInit init) {
 void Lowering::global_thunk(SymbolId symbol, std::function<void()> emit_value) {
   const std::uint32_t slot = new_global({GlobalInit::Kind::thunk});
   if (symbol) set_location(symbol, {Place::global, 0, slot});
-  queue([this, slot, emit_value = std::move(emit_value)](Address entry) {
+  queue([this, symbol, slot, emit_value = std::move(emit_value)](Address entry) {
     program_.globals[slot].target = entry;
+    owner_ = symbol;
     emit_value();
   });
 }
@@ -185,6 +187,7 @@ void Lowering::let_member(DeclId id) {
     const SymbolId symbol = resolution_.of_decl[id.value];
     const std::uint32_t slot = add_slot();
     set_location(symbol, {Place::local, depth(), slot});
+    program_.owners[symbol.value] = owner_;
     const FunctionId function = add_function(symbol, id);
     program_.scopes[current_scope()].members.push_back({slot, true, function.value});
     return;
@@ -202,13 +205,17 @@ void Lowering::let_member(DeclId id) {
   const auto* d = std::get_if<parser::PatternDecl>(&decl.node);
   if (d == nullptr) return;  // annotations, imports
   if (const SymbolId symbol = single_name(d->pattern)) {
+    program_.owners[symbol.value] = owner_;
     if (resolution_.symbols[symbol].is_process) {
       const FunctionId function = add_process_constant(symbol, d->value);
       set_location(symbol, {Place::process_constant, depth(), function.value});
     } else {
       const std::uint32_t slot = add_slot();
       set_location(symbol, {Place::local, depth(), slot});
-      let_thunk(slot, [this, expr = d->value] { value(expr, Tail::yes); });
+      let_thunk(slot, [this, symbol, expr = d->value] {
+        owner_ = symbol;
+        value(expr, Tail::yes);
+      });
     }
     return;
   }
@@ -309,9 +316,11 @@ void Lowering::lambda(ExprId expr, const parser::LambdaExpr& lambda) {
   const auto parameters = tree_.list(lambda.parameters);
   const auto size = static_cast<std::uint32_t>(parameters.size());
   const FunctionId function{static_cast<std::uint32_t>(program_.functions.size())};
-  ScopeInfo scope{.kind = ScopeKind::arguments, .slot_count = size, .function = function};
-  FunctionInfo info{.span = tree_.exprs[expr].span, .group_sizes = {size}};
+  ScopeInfo scope{
+      .kind = ScopeKind::arguments, .slot_count = size, .function = function, .owner = owner_};
+  FunctionInfo info{.span = tree_.exprs[expr].span, .group_sizes = {size}, .owner = owner_};
   for (std::uint32_t i = 0; i < size; ++i) {
+    info.parameters += (i > 0 ? ", " : "") + parser::print(tree_, parameters[i], {.width = 0});
     info.ignored.push_back(is_ignored(parameters[i]));
     if (!info.ignored[i]) scope.identity.push_back(i);
   }

@@ -57,7 +57,7 @@ bool Lowering::too_deep(ExprId expr) {
 // --- Scopes and variables -----------------------------------------------------------------------
 
 ScopeId Lowering::open_scope(ScopeKind kind) {
-  const ScopeId scope = program_.scopes.add(ScopeInfo{.kind = kind});
+  const ScopeId scope = program_.scopes.add(ScopeInfo{.kind = kind, .owner = owner_});
   enter_static(scope);
   return scope;
 }

@@ -71,9 +71,9 @@ void Lowering::add_tock() {
 // `e -> P` is the named state X = tock -> X [] e -> tock -> .. -> P.
 void Lowering::timed_prefix(ExprId expr) {
   const FunctionId function{static_cast<std::uint32_t>(program_.functions.size())};
-  program_.functions.add(FunctionInfo{.symbol = owner_,
-                                      .span = tree_.exprs[expr].span,
+  program_.functions.add(FunctionInfo{.span = tree_.exprs[expr].span,
                                       .is_process = true,
+                                      .owner = owner_,
                                       .is_timed_prefix = true});
   emit(Op::process_ref, function.value, depth() == 0 ? no_frame : 0);
   queue([this, function, expr](Address entry) {
