@@ -1,8 +1,6 @@
 // perentie dump: what one phase makes of a script, as text.
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "commands.hpp"
 #include "model.hpp"
 #include "perentie/parser/dump.hpp"
@@ -38,7 +36,7 @@ ExitCode dump(const Options& options, Console& console) {
     text =
         options.phase == "ast" ? parser::dump_ast(tree, input.sources) : parser::print_script(tree);
   }
-  fmt::print("{}", text);
+  console.result(text);
   console.print(input.diagnostics, input.sources);
   return input.diagnostics.has_errors() ? ExitCode::model_error : ExitCode::ok;
 }

@@ -169,21 +169,18 @@ std::optional<std::string> failed_gate(const Options& options, const Task& task,
 }
 
 void print_report(const Options& options, const monitor::RunResult& result,
-                  const monitor::RunSubject& subject) {
-  if (options.format == "json") {
-    fmt::print("{}\n", monitor::to_json(result, subject));
-  } else {
-    fmt::print("{}", monitor::to_text(result, subject));
-  }
+                  const monitor::RunSubject& subject, Console& console) {
+  console.result(options.format == "json" ? monitor::to_json(result, subject) + '\n'
+                                          : monitor::to_text(result, subject));
 }
 
 // There is no verdict, and the trace was not looked at.
 ExitCode report_inconclusive(const Options& options, const monitor::RunSubject& subject,
-                             std::string reason) {
+                             std::string reason, Console& console) {
   monitor::RunResult result;
   result.verdict = monitor::RunVerdict::inconclusive;
   result.reason = std::move(reason);
-  print_report(options, result, subject);
+  print_report(options, result, subject, console);
   return ExitCode::inconclusive;
 }
 
@@ -216,7 +213,7 @@ ExitCode run_monitor(const Options& options, Console& console) {
     subject.transitions = built->lts().edge_count();
     return report_inconclusive(
         options, subject,
-        fmt::format("{} while the model was explored", base::describe(*built->limit)));
+        fmt::format("{} while the model was explored", base::describe(*built->limit)), console);
   }
 
   std::optional<lts::Lts> hidden;
@@ -233,13 +230,14 @@ ExitCode run_monitor(const Options& options, Console& console) {
   subject.states = process.state_count();
   subject.transitions = process.edge_count();
   if (const auto failed = failed_gate(options, *task, built->lts(), events, limits, console)) {
-    return report_inconclusive(options, subject, *failed);
+    return report_inconclusive(options, subject, *failed, console);
   }
   lts::Normalisation normalisation = lts::normalise(process, {.limits = limits});
   if (normalisation.limit) {
     return report_inconclusive(
         options, subject,
-        fmt::format("{} while the model was normalised", base::describe(*normalisation.limit)));
+        fmt::format("{} while the model was normalised", base::describe(*normalisation.limit)),
+        console);
   }
   const monitor::MonitorModel model = monitor::make_monitor_model(std::move(normalisation.normal));
   subject.synthesis_seconds = seconds_since(start);
@@ -260,7 +258,7 @@ ExitCode run_monitor(const Options& options, Console& console) {
   for (const lts::State state : result.model_states) {
     subject.model_position.push_back(script->show(built->exploration.states[state.value]));
   }
-  print_report(options, result, subject);
+  print_report(options, result, subject, console);
   if (result.verdict == monitor::RunVerdict::violation) return ExitCode::refuted;
   return stream.failed() ? ExitCode::io_error : ExitCode::ok;
 }

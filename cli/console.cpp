@@ -16,6 +16,11 @@ namespace {
 std::atomic<bool> interrupt_flag{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets the flag");
 
+// Unlike fmt::print, throws nothing if the file is full or closed.
+void write(std::FILE* file, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), file);
+}
+
 bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
 bool terminal_has_colour() {
@@ -39,8 +44,7 @@ std::string Console::styled(std::string_view style, std::string_view text) const
 void Console::print(const base::Diagnostics& diagnostics, const base::SourceMap& sources) {
   clear_progress();
   for (; printed_ < diagnostics.all().size(); ++printed_) {
-    const std::string text = base::render(diagnostics.all()[printed_], sources, colour_);
-    std::fwrite(text.data(), 1, text.size(), stderr);
+    write(stderr, base::render(diagnostics.all()[printed_], sources, colour_));
   }
   if (diagnostics.error_count() > base::Diagnostics::max_kept_errors) {
     note(fmt::format("{} more errors are not shown",
@@ -48,26 +52,30 @@ void Console::print(const base::Diagnostics& diagnostics, const base::SourceMap&
   }
 }
 
+void Console::result(std::string_view text) const { write(stdout, text); }
+
 void Console::error(std::string_view message) const {
-  fmt::print(stderr, "perentie: {} {}\n", styled("1;31", "error:"), message);
+  write(stderr, fmt::format("perentie: {} {}\n", styled("1;31", "error:"), message));
 }
 
 void Console::note(std::string_view message) const {
-  if (!quiet_) fmt::print(stderr, "perentie: {}\n", message);
+  if (!quiet_) write(stderr, fmt::format("perentie: {}\n", message));
 }
 
 void Console::progress(const lts::ExploreProgress& progress) {
   if (quiet_ || !is_terminal()) return;
-  fmt::print(stderr, "\r\033[Kstates {}  transitions {}  ply {}  frontier {}  {} MB  {:.0f} s",
-             base::with_thousands(progress.states), base::with_thousands(progress.transitions),
-             progress.ply, base::with_thousands(progress.frontier), progress.bytes >> 20U,
-             progress.seconds);
+  write(
+      stderr,
+      fmt::format("\r\033[Kstates {}  transitions {}  ply {}  frontier {}  {} MB  {:.0f} s",
+                  base::with_thousands(progress.states), base::with_thousands(progress.transitions),
+                  progress.ply, base::with_thousands(progress.frontier), progress.bytes >> 20U,
+                  progress.seconds));
   std::fflush(stderr);
   progress_shown_ = true;
 }
 
 void Console::clear_progress() {
-  if (progress_shown_) fmt::print(stderr, "\r\033[K");
+  if (progress_shown_) write(stderr, "\r\033[K");
   progress_shown_ = false;
 }
 

@@ -20,6 +20,8 @@ class Console {
 
   /// Prints the diagnostics that were not printed before.
   void print(const base::Diagnostics& diagnostics, const base::SourceMap& sources);
+  /// A result, to standard output. That it could not be written is noticed when the program ends.
+  void result(std::string_view text) const;
   /// `perentie: error: message`.
   void error(std::string_view message) const;
   /// `perentie: message`; silent with --quiet.

@@ -1,5 +1,6 @@
 // The `perentie` program: reads the command line and runs one subcommand.
 #include <cstdio>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -20,13 +21,35 @@ constexpr const char* description =
 constexpr const char* footer =
     "Examples:\n"
     "  perentie monitor corpus/rover/pass.yaml\n"
-    "  perentie monitor --model m.csp --process SYSTEM --trace log.jsonl --mode strict\n"
-    "  perentie lts m.csp -p 'SYSTEM \\ {|internal|}' -o system.aut\n"
-    "  perentie eval m.csp -e 'card(Events)'\n"
+    "  perentie monitor --model corpus/rover/rover.csp --process ROVER_SYSTEM \\\n"
+    "      --trace corpus/rover/swapped.jsonl --mode strict\n"
+    "  perentie lts corpus/rover/rover.csp -p 'ROVER_SYSTEM \\ {|radiation_level|}' -o rover.aut\n"
+    "  perentie eval corpus/rover/rover.csp -e 'card(Events)'\n"
     "\n"
     "Exit codes: 0 it holds, conforms or is done; 1 it does not; 2 wrong usage or configuration;\n"
     "3 the model has errors; 4 a budget ran out (no verdict); 5 input or output failed; 130\n"
     "interrupted.";
+
+// The word that stands where a subcommand should; empty if there is none.
+std::string first_word(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (argv[i][0] != '-') return argv[i];
+  }
+  return {};
+}
+
+std::string complaint(const CLI::App& program, const CLI::Error& error, const std::string& word) {
+  std::string what = error.what();
+  if (program.get_subcommands().empty() && error.get_name() == "RequiredError") {
+    what = word.empty() ? "a subcommand is needed" : fmt::format("no subcommand `{}`", word);
+  }
+  return fmt::format("perentie: error: {}\nRun with --help for more information.\n", what);
+}
+
+bool standard_output_is_written() {
+  std::cout.flush();
+  return std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
 
 ExitCode run(int argc, char** argv) {
   CLI::App program{description, "perentie"};
@@ -40,6 +63,10 @@ ExitCode run(int argc, char** argv) {
       ->capture_default_str();
   program.add_flag("-q,--quiet", quiet, "No notes and no progress on standard error");
   program.fallthrough();
+  program.failure_message(
+      [word = first_word(argc, argv)](const CLI::App* app, const CLI::Error& error) {
+        return complaint(*app, error, word);
+      });
 
   std::vector<Command> commands;
   for (const auto add : {add_monitor, add_lts, add_eval, add_dump}) {
@@ -50,7 +77,8 @@ ExitCode run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const bool is_success = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     program.exit(error);  // prints the help, the version or the complaint
-    return is_success ? ExitCode::ok : ExitCode::usage;
+    if (!is_success) return ExitCode::usage;
+    return standard_output_is_written() ? ExitCode::ok : ExitCode::io_error;
   }
   Console console;
   console.set_colour(colour == "auto"     ? ColourChoice::automatic
@@ -61,7 +89,7 @@ ExitCode run(int argc, char** argv) {
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     const ExitCode code = command.run(console);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    if (!standard_output_is_written()) {
       console.error("standard output could not be written");
       return ExitCode::io_error;
     }

@@ -14,6 +14,15 @@ namespace {
 constexpr base::DiagnosticCode unreadable_file{"I001", base::Severity::error,
                                                "a file cannot be read"};
 
+// CLI::PositiveNumber names the greatest double, with all its digits, when it complains.
+const CLI::Validator positive(
+    [](std::string& text) -> std::string {
+      double value = 0;
+      if (CLI::detail::lexical_cast(text, value) && value > 0) return {};
+      return fmt::format("`{}` is not a positive number", text);
+    },
+    "POSITIVE");
+
 // Three quarters of the machine's memory; 0 if the machine does not tell.
 std::uint64_t default_max_memory() {
   const long pages = sysconf(_SC_PHYS_PAGES);
@@ -36,7 +45,7 @@ BudgetOptions::BudgetOptions() : max_memory(default_max_memory()) {}
 
 void BudgetOptions::add_to(CLI::App& app) {
   app.add_option("--max-states", max_states, "Stop after this many states (inconclusive)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive)
       ->group("Budgets");
   app.add_option("--max-memory", max_memory,
                  "Stop at about this much memory, such as 2GB; default: three quarters of the\n"
@@ -44,7 +53,7 @@ void BudgetOptions::add_to(CLI::App& app) {
       ->transform(CLI::AsSizeValue(false))
       ->group("Budgets");
   app.add_option("--timeout", timeout, "Stop after this many seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(positive)
       ->group("Budgets");
 }
 
