@@ -12,6 +12,39 @@ std::span<const std::uint32_t> as_words(std::span<const ProcId> processes) {
 
 }  // namespace
 
+std::optional<OperandPlaces> process_operands(ProcKind kind) {
+  constexpr std::size_t only = std::size_t{1} << 32U;  // no second operand
+  switch (kind) {
+    case ProcKind::stop:
+    case ProcKind::skip:
+    case ProcKind::div:
+    case ProcKind::chaos:
+    case ProcKind::run:
+    case ProcKind::call: return std::nullopt;
+    case ProcKind::external_choice:
+    case ProcKind::internal_choice:
+    case ProcKind::sequential:
+    case ProcKind::interrupt:
+    case ProcKind::sliding_choice:
+    case ProcKind::interleave: return OperandPlaces{0, 1};
+    case ProcKind::parallel:
+    case ProcKind::link_parallel:
+    case ProcKind::exception:
+    case ProcKind::sync_choice:
+    case ProcKind::sync_interrupt: return OperandPlaces{1, 1};
+    case ProcKind::alphabet_parallel: return OperandPlaces{1, 2};
+    case ProcKind::prefix:
+    case ProcKind::event_set_prefix:
+    case ProcKind::hide:
+    case ProcKind::project:
+    case ProcKind::rename:
+    case ProcKind::compression: return OperandPlaces{1, only};
+    case ProcKind::prioritise: return OperandPlaces{0, only};
+    case ProcKind::prioritise_partial: return OperandPlaces{2, only};
+  }
+  return std::nullopt;
+}
+
 ProcStore::ProcStore() {
   stop_ = intern(ProcKind::stop, {});
   skip_ = intern(ProcKind::skip, {});

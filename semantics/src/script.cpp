@@ -9,6 +9,7 @@
 #include "perentie/semantics/step.hpp"
 #include "prelude.hpp"
 #include "process_kinds.hpp"
+#include "show_definitions.hpp"
 
 namespace perentie::semantics {
 
@@ -16,10 +17,7 @@ namespace perentie::semantics {
 struct Script::Impl {
   Impl(base::SourceMap& source_map, parser::SyntaxTree syntax_tree,
        const parser::ParseOptions& parse_options)
-      : sources(source_map),
-        options(parse_options),
-        tree(std::move(syntax_tree)),
-        resolver(tree) {}
+      : sources(source_map), options(parse_options), tree(std::move(syntax_tree)), resolver(tree) {}
 
   base::SourceMap& sources;
   parser::ParseOptions options;
@@ -135,6 +133,11 @@ std::optional<ProcId> Script::process(std::string_view expression, base::Diagnos
   const std::optional<ValueId> value = impl_->machine->run(entry, diagnostics);
   if (!value) return std::nullopt;
   return impl_->values.as_process(*value);
+}
+
+std::optional<std::string> Script::definitions(ProcId process, base::Diagnostics& diagnostics) {
+  return show_definitions(impl_->machine->show_context(), process,
+                          [&](ProcId call) { return impl_->machine->unfold(call, diagnostics); });
 }
 
 std::string Script::show(ProcId process, std::size_t max_length) const {

@@ -39,24 +39,22 @@ std::optional<ProcId> StepRules::state(ProcId process) {
 
 namespace {
 
-// Where the process operands of an operator that stays in place lie among its words: from `first`,
-// every `stride`-th. None: the term is not such an operator.
-struct OperandPlaces {
-  std::size_t first;
-  std::size_t stride;
-};
+// The process operands of an operator that stays in place when they step. None: the term is not
+// such an operator.
 std::optional<OperandPlaces> static_operands(ProcKind kind) {
   switch (kind) {
-    case ProcKind::interleave: return OperandPlaces{0, 1};
+    case ProcKind::interleave:
     case ProcKind::parallel:
-    case ProcKind::link_parallel: return OperandPlaces{1, 1};
-    case ProcKind::alphabet_parallel: return OperandPlaces{1, 2};
+    case ProcKind::link_parallel:
+    case ProcKind::alphabet_parallel:
     case ProcKind::hide:
     case ProcKind::project:
     case ProcKind::rename:
-    case ProcKind::compression: return OperandPlaces{1, 2};
-    case ProcKind::prioritise_partial: return OperandPlaces{2, 3};
-    default: return std::nullopt;
+    case ProcKind::compression:
+    case ProcKind::prioritise_partial:
+      return process_operands(kind);
+    default:
+      return std::nullopt;
   }
 }
 
@@ -70,7 +68,8 @@ std::optional<ProcId> StepRules::unfold(ProcId call) {
 
 std::optional<ProcId> StepRules::settle(ProcId process) {
   if (processes_.kind(process) != ProcKind::call) return settle_operands(process);
-  if (const auto known = settled_.find(process.value); known != settled_.end()) return known->second;
+  if (const auto known = settled_.find(process.value); known != settled_.end())
+    return known->second;
   settled_[process.value] = process;  // for a name that stands for itself alone
   const std::optional<ProcId> body = unfold(process);
   if (!body) return std::nullopt;
@@ -112,10 +111,17 @@ bool StepRules::step(ProcId process, Steps& out) {
 bool StepRules::step_term(ProcId process, Steps& out) {
   const auto word = [&](std::size_t i) { return processes_.word(process, i); };
   switch (processes_.kind(process)) {
-    case ProcKind::stop: return true;
-    case ProcKind::skip: out.push_back({lts::tick, processes_.stop()}); return true;
-    case ProcKind::div: out.push_back({lts::tau, process}); return true;
-    case ProcKind::prefix: out.push_back({EventId{word(0)}, ProcId{word(1)}}); return true;
+    case ProcKind::stop:
+      return true;
+    case ProcKind::skip:
+      out.push_back({lts::tick, processes_.stop()});
+      return true;
+    case ProcKind::div:
+      out.push_back({lts::tau, process});
+      return true;
+    case ProcKind::prefix:
+      out.push_back({EventId{word(0)}, ProcId{word(1)}});
+      return true;
     case ProcKind::event_set_prefix:
       for (const EventId event : events_.events(EventSetId{word(0)})) {
         out.push_back({event, ProcId{word(1)}});
@@ -126,30 +132,47 @@ bool StepRules::step_term(ProcId process, Steps& out) {
         out.push_back({lts::tau, ProcId{operand}});
       }
       return true;
-    case ProcKind::external_choice: return external_choice(process, out);
-    case ProcKind::sequential: return sequential(process, out);
-    case ProcKind::interrupt: return interrupt(process, out);
-    case ProcKind::sliding_choice: return sliding_choice(process, out);
+    case ProcKind::external_choice:
+      return external_choice(process, out);
+    case ProcKind::sequential:
+      return sequential(process, out);
+    case ProcKind::interrupt:
+      return interrupt(process, out);
+    case ProcKind::sliding_choice:
+      return sliding_choice(process, out);
     case ProcKind::interleave:
     case ProcKind::parallel:
-    case ProcKind::alphabet_parallel: return parallel(process, out);
-    case ProcKind::link_parallel: return link_parallel(process, out);
-    case ProcKind::exception: return exception(process, out);
-    case ProcKind::sync_choice: return sync_choice(process, out);
-    case ProcKind::sync_interrupt: return sync_interrupt(process, out);
+    case ProcKind::alphabet_parallel:
+      return parallel(process, out);
+    case ProcKind::link_parallel:
+      return link_parallel(process, out);
+    case ProcKind::exception:
+      return exception(process, out);
+    case ProcKind::sync_choice:
+      return sync_choice(process, out);
+    case ProcKind::sync_interrupt:
+      return sync_interrupt(process, out);
     case ProcKind::hide:
-    case ProcKind::project: return hide_or_project(process, out);
-    case ProcKind::rename: return rename(process, out);
-    case ProcKind::chaos: chaos(process, out); return true;
+    case ProcKind::project:
+      return hide_or_project(process, out);
+    case ProcKind::rename:
+      return rename(process, out);
+    case ProcKind::chaos:
+      chaos(process, out);
+      return true;
     case ProcKind::run:
       for (const EventId event : events_.events(EventSetId{word(0)})) {
         out.push_back({event, process});
       }
       return true;
-    case ProcKind::prioritise: return prioritise(process, out);
-    case ProcKind::prioritise_partial: return prioritise_partial(process, out);
-    case ProcKind::compression: return compression(process, out);
-    case ProcKind::call: return step_call(process, out);
+    case ProcKind::prioritise:
+      return prioritise(process, out);
+    case ProcKind::prioritise_partial:
+      return prioritise_partial(process, out);
+    case ProcKind::compression:
+      return compression(process, out);
+    case ProcKind::call:
+      return step_call(process, out);
   }
   return true;
 }
@@ -157,9 +180,9 @@ bool StepRules::step_term(ProcId process, Steps& out) {
 // P(args) behaves as its body. A call that needs its own transitions first has none to begin with.
 bool StepRules::step_call(ProcId process, Steps& out) {
   if (!unfolding_.insert(process.value).second) {
-    diagnostics_.report(
-        codes::unguarded_recursion, calls_.definition_span(process),
-        fmt::format("`{}` is defined by itself without any event in between", calls_.call_name(process)));
+    diagnostics_.report(codes::unguarded_recursion, calls_.definition_span(process),
+                        fmt::format("`{}` is defined by itself without any event in between",
+                                    calls_.call_name(process)));
     return false;
   }
   const std::optional<ProcId> body = unfold(process);
@@ -221,7 +244,8 @@ std::optional<ProcId> StepRules::sequential_target(ProcId left, ProcId right) {
 
 std::optional<bool> StepRules::only_terminates(ProcId process) {
   switch (processes_.kind(process)) {
-    case ProcKind::skip: return true;
+    case ProcKind::skip:
+      return true;
     case ProcKind::stop:
     case ProcKind::div:
     case ProcKind::prefix:
@@ -230,8 +254,10 @@ std::optional<bool> StepRules::only_terminates(ProcId process) {
     case ProcKind::sliding_choice:
     case ProcKind::chaos:
     case ProcKind::run:
-    case ProcKind::compression: return false;
-    default: break;
+    case ProcKind::compression:
+      return false;
+    default:
+      break;
   }
   if (const auto known = only_terminates_.find(process.value); known != only_terminates_.end()) {
     return known->second;
@@ -317,7 +343,8 @@ bool StepRules::parallel(ProcId process, Steps& out) {
   const std::size_t stride = kind == ProcKind::alphabet_parallel ? 2 : 1;
   const std::size_t first = kind == ProcKind::interleave ? 0 : 1;
   std::vector<std::size_t> places;
-  for (std::size_t i = first; i < processes_.words(process).size(); i += stride) places.push_back(i);
+  for (std::size_t i = first; i < processes_.words(process).size(); i += stride)
+    places.push_back(i);
   std::vector<Steps> steps(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!step(processes_.operand(process, places[i]), steps[i])) return false;
@@ -325,7 +352,8 @@ bool StepRules::parallel(ProcId process, Steps& out) {
   // Whether operand i takes part in an event that operand `by` offers.
   const auto takes_part = [&](std::size_t i, std::size_t by, EventId event) {
     switch (kind) {
-      case ProcKind::interleave: return i == by;
+      case ProcKind::interleave:
+        return i == by;
       case ProcKind::parallel:
         return i == by || events_.contains(EventSetId{processes_.word(process, 0)}, event);
       default:
@@ -386,7 +414,8 @@ bool StepRules::link_parallel(ProcId process, Steps& out) {
     }
     for (const Step& r : right) {
       if (r.label != images[0].to) continue;
-      const ProcId moved = processes_.binary(ProcKind::link_parallel, links.value, l.target, r.target);
+      const ProcId moved =
+          processes_.binary(ProcKind::link_parallel, links.value, l.target, r.target);
       out.push_back({lts::tau, moved});
     }
   }

@@ -42,7 +42,8 @@ std::string Machine::scope_prefix(std::uint32_t scope, SymbolId innermost) const
     const ScopeInfo& info = info_of(scope);
     std::string values = frame_values(scope);
     scope = scopes_.words(scope)[1];
-    if (info.kind == ScopeKind::let) continue;
+    const bool binds_nothing = info.kind == ScopeKind::binding && info.identity.empty();
+    if (info.kind == ScopeKind::let || binds_nothing) continue;
     const SymbolId function = info.function ? program_.functions[info.function].symbol : SymbolId{};
     if (!function) {
       pass_constants(info.owner);

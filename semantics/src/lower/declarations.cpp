@@ -320,8 +320,9 @@ void Lowering::lambda(ExprId expr, const parser::LambdaExpr& lambda) {
       .kind = ScopeKind::arguments, .slot_count = size, .function = function, .owner = owner_};
   FunctionInfo info{.span = tree_.exprs[expr].span, .group_sizes = {size}, .owner = owner_};
   for (std::uint32_t i = 0; i < size; ++i) {
-    info.parameters += (i > 0 ? ", " : "") + parser::print(tree_, parameters[i], {.width = 0});
     info.ignored.push_back(is_ignored(parameters[i]));
+    info.parameters += i > 0 ? ", " : "";
+    info.parameters += info.ignored[i] ? "_" : parser::print(tree_, parameters[i], {.width = 0});
     if (!info.ignored[i]) scope.identity.push_back(i);
   }
   info.group_scopes.push_back(program_.scopes.add(std::move(scope)));

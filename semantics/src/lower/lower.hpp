@@ -182,6 +182,7 @@ class Lowering {
   void prefix(parser::ExprId expr);
   void communication(const parser::PrefixExpr& prefix);
   void field_loop(std::span<const parser::FieldId> fields, bool nothing_follows, const Emit& leaf);
+  SymbolId partial_atom(parser::PatternId pattern) const;
   void replicated(const parser::ReplicatedExpr& replicated);
   void replicated_link(const parser::ReplicatedLinkExpr& link);
   void ties(const parser::Ties& ties);

@@ -150,6 +150,21 @@ void Lowering::communication(const parser::PrefixExpr& e) {
   emit(Op::acc_process, static_cast<std::uint32_t>(ProcKind::internal_choice), 1);
 }
 
+// The constructor or channel with fields that a pattern names alone, if it does.
+SymbolId Lowering::partial_atom(parser::PatternId pattern) const {
+  if (!std::holds_alternative<parser::NamePattern>(tree_.patterns[pattern].node)) return {};
+  const SymbolId id = resolution_.of_pattern[pattern.value];
+  if (!id) return {};
+  const Symbol& symbol = resolution_.symbols[id];
+  const auto& decl = tree_.decls[symbol.decl].node;
+  if (symbol.kind == SymbolKind::channel) {
+    return std::get<parser::ChannelDecl>(decl).type ? id : SymbolId{};
+  }
+  if (symbol.kind != SymbolKind::constructor) return {};
+  const auto& datatype = std::get<parser::DatatypeDecl>(decl);
+  return tree_.list(datatype.constructors)[symbol.index].type ? id : SymbolId{};
+}
+
 // With a partial event on the stack: `leaf` for each way the fields extend it. The last field of
 // the prefix (`nothing_follows`) takes all remaining components (4.3.5).
 void Lowering::field_loop(std::span<const FieldId> fields, bool nothing_follows, const Emit& leaf) {
@@ -158,6 +173,13 @@ void Lowering::field_loop(std::span<const FieldId> fields, bool nothing_follows,
   const auto rest = fields.subspan(1);
   if (field.kind == FieldKind::output) {
     canonical(field.expression);
+    span_ = field.span;
+    emit(Op::dot, 2);
+    return field_loop(rest, nothing_follows, leaf);
+  }
+  if (const SymbolId symbol = partial_atom(field.pattern); symbol && !field.expression) {
+    // `?A.x`: the next fields are those of the constructor.
+    emit_value(values_.make_atom(symbol));
     span_ = field.span;
     emit(Op::dot, 2);
     return field_loop(rest, nothing_follows, leaf);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,14 @@ enum class ProcKind : std::uint8_t {
 #include "perentie/semantics/process_kinds.def"
 #undef PERENTIE_PROCESS
 };
+
+/// Where the process operands lie among the words of a term: from `first`, every `stride`-th.
+struct OperandPlaces {
+  std::size_t first;
+  std::size_t stride;
+};
+/// Of kinds without process operands, and of calls, nothing.
+std::optional<OperandPlaces> process_operands(ProcKind kind);
 
 class ProcStore {
  public:

@@ -43,6 +43,8 @@ class Script {
   /// call the text.
   std::optional<std::string> evaluate(std::string_view expression, base::Diagnostics& diagnostics,
                                       const std::string& origin = "<expression>");
+  /// A process with the definitions that it leads to (`show_definitions`).
+  std::optional<std::string> definitions(ProcId process, base::Diagnostics& diagnostics);
   /// The process that an expression stands for.
   std::optional<ProcId> process(std::string_view expression, base::Diagnostics& diagnostics,
                                 const std::string& origin = "<expression>");
