@@ -185,6 +185,7 @@ struct TermSystem::Impl {
 
   Script::Impl& script;
   StepRules rules;
+  bool has_initial = true;  // false: it was reported why not
 };
 
 TermSystem::TermSystem(std::unique_ptr<Impl> impl, ProcId initial)
@@ -194,12 +195,13 @@ TermSystem::~TermSystem() = default;
 
 TermSystem Script::terms(ProcId process, base::Diagnostics& diagnostics) {
   auto impl = std::make_unique<TermSystem::Impl>(*impl_, diagnostics);
-  const ProcId initial = impl->rules.state(process).value_or(process);
-  return TermSystem(std::move(impl), initial);
+  const std::optional<ProcId> initial = impl->rules.state(process);
+  impl->has_initial = initial.has_value();
+  return TermSystem(std::move(impl), initial.value_or(process));
 }
 
 bool TermSystem::successors(State state, std::vector<lts::Transition<State>>& out) {
-  return impl_->rules.successors(state, out);
+  return impl_->has_initial && impl_->rules.successors(state, out);
 }
 
 std::uint64_t TermSystem::state_hash(State state) const { return base::hash_mix(0, state.value); }
