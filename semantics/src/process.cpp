@@ -20,27 +20,36 @@ std::optional<OperandPlaces> process_operands(ProcKind kind) {
     case ProcKind::div:
     case ProcKind::chaos:
     case ProcKind::run:
-    case ProcKind::call: return std::nullopt;
+    case ProcKind::opaque:
+    case ProcKind::call:
+      return std::nullopt;
     case ProcKind::external_choice:
     case ProcKind::internal_choice:
     case ProcKind::sequential:
     case ProcKind::interrupt:
     case ProcKind::sliding_choice:
-    case ProcKind::interleave: return OperandPlaces{0, 1};
+    case ProcKind::interleave:
+      return OperandPlaces{0, 1};
     case ProcKind::parallel:
     case ProcKind::link_parallel:
     case ProcKind::exception:
     case ProcKind::sync_choice:
-    case ProcKind::sync_interrupt: return OperandPlaces{1, 1};
-    case ProcKind::alphabet_parallel: return OperandPlaces{1, 2};
+    case ProcKind::sync_interrupt:
+      return OperandPlaces{1, 1};
+    case ProcKind::alphabet_parallel:
+      return OperandPlaces{1, 2};
     case ProcKind::prefix:
     case ProcKind::event_set_prefix:
     case ProcKind::hide:
     case ProcKind::project:
     case ProcKind::rename:
-    case ProcKind::compression: return OperandPlaces{1, only};
-    case ProcKind::prioritise: return OperandPlaces{0, only};
-    case ProcKind::prioritise_partial: return OperandPlaces{2, only};
+    case ProcKind::compression:
+      return OperandPlaces{1, only};
+    case ProcKind::chase:
+    case ProcKind::prioritise:
+      return OperandPlaces{0, only};
+    case ProcKind::prioritise_partial:
+      return OperandPlaces{2, only};
   }
   return std::nullopt;
 }
@@ -116,6 +125,12 @@ ProcId ProcStore::chaos(EventSetId events) { return intern(ProcKind::chaos, {eve
 
 ProcId ProcStore::run(EventSetId events) { return intern(ProcKind::run, {events.value}); }
 
+ProcId ProcStore::opaque(Builtin builtin, std::span<const ValueId> arguments) {
+  std::vector<std::uint32_t> words{static_cast<std::uint32_t>(builtin)};
+  for (const ValueId argument : arguments) words.push_back(argument.bits);
+  return intern(ProcKind::opaque, words);
+}
+
 ProcId ProcStore::call(ValueId function, std::span<const ValueId> arguments) {
   std::vector<std::uint32_t> words{function.bits};
   for (const ValueId argument : arguments) words.push_back(argument.bits);
@@ -130,8 +145,7 @@ ProcId ProcStore::prioritise(ProcId operand, std::span<const EventSetId> order) 
 
 ProcId ProcStore::prioritise_partial(EventSetId below_tau, EventRelationId blocked_by,
                                      ProcId operand) {
-  return intern(ProcKind::prioritise_partial,
-                {below_tau.value, blocked_by.value, operand.value});
+  return intern(ProcKind::prioritise_partial, {below_tau.value, blocked_by.value, operand.value});
 }
 
 }  // namespace perentie::semantics

@@ -68,26 +68,48 @@ class Printer {
 
   void print_value(ValueId value) {
     switch (values_.kind(value)) {
-      case ValueKind::integer: text_ += std::to_string(values_.as_int(value)); break;
-      case ValueKind::boolean: text_ += values_.as_bool(value) ? "true" : "false"; break;
+      case ValueKind::integer:
+        text_ += std::to_string(values_.as_int(value));
+        break;
+      case ValueKind::boolean:
+        text_ += values_.as_bool(value) ? "true" : "false";
+        break;
       case ValueKind::character:
         text_ += fmt::format("'{}'", static_cast<char>(values_.as_char(value)));
         break;
       case ValueKind::atom:
         text_ += resolution_.symbols[values_.as_symbol(value)].qualified;
         break;
-      case ValueKind::dot: then_list("", values_.items(value), ".", ""); break;
-      case ValueKind::tuple: then_list("(", values_.items(value), ", ", ")"); break;
-      case ValueKind::empty_seq: text_ += "<>"; break;
-      case ValueKind::cons: print_sequence(value); break;
-      case ValueKind::set: then_list("{", values_.items(value), ", ", "}"); break;
-      case ValueKind::int_set: text_ += "Integers"; break;
-      case ValueKind::from_set: then({"{", inner(value), "...}"}); break;
-      case ValueKind::seq_set: then({"Seq(", inner(value), ")"}); break;
+      case ValueKind::dot:
+        then_list("", values_.items(value), ".", "");
+        break;
+      case ValueKind::tuple:
+        then_list("(", values_.items(value), ", ", ")");
+        break;
+      case ValueKind::empty_seq:
+        text_ += "<>";
+        break;
+      case ValueKind::cons:
+        print_sequence(value);
+        break;
+      case ValueKind::set:
+        then_list("{", values_.items(value), ", ", "}");
+        break;
+      case ValueKind::int_set:
+        text_ += "Integers";
+        break;
+      case ValueKind::from_set:
+        then({"{", inner(value), "...}"});
+        break;
+      case ValueKind::seq_set:
+        then({"Seq(", inner(value), ")"});
+        break;
       case ValueKind::data_set:
         text_ += resolution_.symbols[values_.as_symbol(value)].qualified;
         break;
-      case ValueKind::map: print_map(value); break;
+      case ValueKind::map:
+        print_map(value);
+        break;
       case ValueKind::process:
         if (context_ == nullptr) {
           text_ += "a process";
@@ -98,8 +120,12 @@ class Printer {
       case ValueKind::function:
         text_ += context_ == nullptr ? "a function" : context_->names.function_name(value);
         break;
-      case ValueKind::builtin: text_ += info(values_.as_builtin(value)).name; break;
-      case ValueKind::ignored: text_ += "_"; break;
+      case ValueKind::builtin:
+        text_ += info(values_.as_builtin(value)).name;
+        break;
+      case ValueKind::ignored:
+        text_ += "_";
+        break;
     }
   }
 
@@ -144,24 +170,33 @@ class Printer {
   }
 
   static std::uint8_t level_of(ProcKind kind) {
-    using parser::info;
     using parser::InfixOp;
+    using parser::info;
     switch (kind) {
       case ProcKind::prefix:
-      case ProcKind::event_set_prefix: return info(InfixOp::prefix).level;
-      case ProcKind::sequential: return info(InfixOp::sequential).level;
-      case ProcKind::sliding_choice: return info(InfixOp::sliding_choice).level;
+      case ProcKind::event_set_prefix:
+        return info(InfixOp::prefix).level;
+      case ProcKind::sequential:
+        return info(InfixOp::sequential).level;
+      case ProcKind::sliding_choice:
+        return info(InfixOp::sliding_choice).level;
       case ProcKind::interrupt:
-      case ProcKind::sync_interrupt: return info(InfixOp::interrupt).level;
+      case ProcKind::sync_interrupt:
+        return info(InfixOp::interrupt).level;
       case ProcKind::external_choice:
-      case ProcKind::sync_choice: return info(InfixOp::external_choice).level;
-      case ProcKind::internal_choice: return info(InfixOp::internal_choice).level;
+      case ProcKind::sync_choice:
+        return info(InfixOp::external_choice).level;
+      case ProcKind::internal_choice:
+        return info(InfixOp::internal_choice).level;
       case ProcKind::parallel:
       case ProcKind::alphabet_parallel:
       case ProcKind::exception:
-      case ProcKind::link_parallel: return info(InfixOp::parallel).level;
-      case ProcKind::interleave: return info(InfixOp::interleave).level;
-      default: return 0;  // atoms, calls, and what is always printed in parentheses
+      case ProcKind::link_parallel:
+        return info(InfixOp::parallel).level;
+      case ProcKind::interleave:
+        return info(InfixOp::interleave).level;
+      default:
+        return 0;  // atoms, calls, and what is always printed in parentheses
     }
   }
 
@@ -181,36 +216,72 @@ class Printer {
     const auto process = [&](std::size_t i) { return Operand{ProcId{words[i]}, level}; };
     const auto set = [&](std::size_t i) { return event_set(EventSetId{words[i]}); };
     switch (kind) {
-      case ProcKind::stop: then({"STOP"}); break;
-      case ProcKind::skip: then({"SKIP"}); break;
-      case ProcKind::div: then({"DIV"}); break;
+      case ProcKind::stop:
+        then({"STOP"});
+        break;
+      case ProcKind::skip:
+        then({"SKIP"});
+        break;
+      case ProcKind::div:
+        then({"DIV"});
+        break;
       case ProcKind::prefix:
         then({EventId{words[0]}, " -> ", looser(words[1], level)});
         break;
-      case ProcKind::event_set_prefix: then({set(0), " -> ", looser(words[1], level)}); break;
-      case ProcKind::external_choice: n_ary(words, " [] ", level); break;
-      case ProcKind::internal_choice: n_ary(words, " |~| ", level); break;
-      case ProcKind::interleave: n_ary(words, " ||| ", level); break;
-      case ProcKind::sequential: then({process(0), " ; ", process(1)}); break;
-      case ProcKind::interrupt: then({process(0), " /\\ ", process(1)}); break;
-      case ProcKind::sliding_choice: then({process(0), " [> ", process(1)}); break;
-      case ProcKind::parallel: n_ary(words.subspan(1), " [| " + set(0) + " |] ", level); break;
-      case ProcKind::sync_choice: n_ary(words.subspan(1), " [+" + set(0) + "+] ", level); break;
-      case ProcKind::exception: then({process(1), " [| " + set(0) + " |> ", process(2)}); break;
+      case ProcKind::event_set_prefix:
+        then({set(0), " -> ", looser(words[1], level)});
+        break;
+      case ProcKind::external_choice:
+        n_ary(words, " [] ", level);
+        break;
+      case ProcKind::internal_choice:
+        n_ary(words, " |~| ", level);
+        break;
+      case ProcKind::interleave:
+        n_ary(words, " ||| ", level);
+        break;
+      case ProcKind::sequential:
+        then({process(0), " ; ", process(1)});
+        break;
+      case ProcKind::interrupt:
+        then({process(0), " /\\ ", process(1)});
+        break;
+      case ProcKind::sliding_choice:
+        then({process(0), " [> ", process(1)});
+        break;
+      case ProcKind::parallel:
+        n_ary(words.subspan(1), " [| " + set(0) + " |] ", level);
+        break;
+      case ProcKind::sync_choice:
+        n_ary(words.subspan(1), " [+" + set(0) + "+] ", level);
+        break;
+      case ProcKind::exception:
+        then({process(1), " [| " + set(0) + " |> ", process(2)});
+        break;
       case ProcKind::sync_interrupt:
         then({process(1), " /+ " + set(0) + " +\\ ", process(2)});
         break;
       case ProcKind::link_parallel:
         then({process(1), " [" + relation(EventRelationId{words[0]}, " <-> ") + "] ", process(2)});
         break;
-      case ProcKind::alphabet_parallel: print_alphabet_parallel(words, level); break;
-      case ProcKind::hide: then({"(", atom(words[1]), " \\ " + set(0) + ")"}); break;
-      case ProcKind::project: then({"(", atom(words[1]), " |\\ " + set(0) + ")"}); break;
+      case ProcKind::alphabet_parallel:
+        print_alphabet_parallel(words, level);
+        break;
+      case ProcKind::hide:
+        then({"(", atom(words[1]), " \\ " + set(0) + ")"});
+        break;
+      case ProcKind::project:
+        then({"(", atom(words[1]), " |\\ " + set(0) + ")"});
+        break;
       case ProcKind::rename:
         then({atom(words[1]), "[[" + relation(EventRelationId{words[0]}, " <- ") + "]]"});
         break;
-      case ProcKind::chaos: then({"CHAOS(" + set(0) + ")"}); break;
-      case ProcKind::run: then({"RUN(" + set(0) + ")"}); break;
+      case ProcKind::chaos:
+        then({"CHAOS(" + set(0) + ")"});
+        break;
+      case ProcKind::run:
+        then({"RUN(" + set(0) + ")"});
+        break;
       case ProcKind::prioritise: {
         std::string order;
         for (std::size_t i = 1; i < words.size(); ++i) order += (i > 1 ? ", " : "") + set(i);
@@ -224,7 +295,15 @@ class Printer {
       case ProcKind::compression:
         then({std::string(info(static_cast<Builtin>(words[0])).name) + "(", whole(words[1]), ")"});
         break;
-      case ProcKind::call: print_call(words); break;
+      case ProcKind::chase:
+        then({"chase(", whole(words[0]), ")"});
+        break;
+      case ProcKind::opaque:
+        print_opaque(words);
+        break;
+      case ProcKind::call:
+        print_call(words);
+        break;
     }
   }
 
@@ -288,6 +367,16 @@ class Printer {
       pieces.emplace_back(std::string("} @ [a] p"));
       then(std::move(pieces));
     }
+  }
+
+  void print_opaque(std::span<const std::uint32_t> words) {
+    std::vector<Piece> pieces{std::string(info(static_cast<Builtin>(words[0])).name)};
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      pieces.emplace_back(std::string(i == 1 ? "(" : ", "));
+      pieces.emplace_back(ValueId{words[i]});
+    }
+    pieces.emplace_back(std::string(")"));
+    then(std::move(pieces));
   }
 
   void print_call(std::span<const std::uint32_t> words) {

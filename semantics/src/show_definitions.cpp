@@ -11,6 +11,14 @@ namespace {
 constexpr std::size_t unlimited = std::string::npos / 4;
 constexpr std::size_t line_width = 80;
 
+// FDR knows these by name alone, and prints them as defined by themselves.
+bool is_buffer(const std::string& name) {
+  for (const char* buffer : {"BUFFER(", "WEAK_BUFFER(", "SIGNAL_BUFFER("}) {
+    if (name.starts_with(buffer)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<std::string> show_definitions(
@@ -30,10 +38,16 @@ std::optional<std::string> show_definitions(
     stack.pop_back();
     if (!seen.insert(term.value).second) continue;
     const ProcKind kind = context.processes.kind(term);
-    if (kind == ProcKind::call) {
+    if (kind == ProcKind::call || kind == ProcKind::opaque) {
+      const std::string name = show(term);
+      if (is_buffer(name)) {
+        define(name, name);
+        continue;
+      }
+      if (kind == ProcKind::opaque) continue;
       const std::optional<ProcId> body = unfold(term);
       if (!body) return std::nullopt;
-      define(show(term), show(*body));
+      if (!name.starts_with("STOP(")) define(name, show(*body));  // FDR does not define it either
       stack.push_back(*body);
     } else if (kind == ProcKind::skip) {
       define("SKIP", "✓ -> STOP");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,8 @@ namespace {
 
 // Operators in operators: a bound on recursion over the structure of a term.
 constexpr std::uint32_t max_depth = 4'000;
+// More τ in a row are taken for divergence, which `chase` cannot follow.
+constexpr std::size_t max_chased = 1'000'000;
 
 }  // namespace
 
@@ -51,6 +54,7 @@ std::optional<OperandPlaces> static_operands(ProcKind kind) {
     case ProcKind::project:
     case ProcKind::rename:
     case ProcKind::compression:
+    case ProcKind::chase:
     case ProcKind::prioritise_partial:
       return process_operands(kind);
     default:
@@ -171,6 +175,10 @@ bool StepRules::step_term(ProcId process, Steps& out) {
       return prioritise_partial(process, out);
     case ProcKind::compression:
       return compression(process, out);
+    case ProcKind::chase:
+      return chase(process, out);
+    case ProcKind::opaque:
+      return refuse_opaque(process);
     case ProcKind::call:
       return step_call(process, out);
   }
@@ -254,6 +262,8 @@ std::optional<bool> StepRules::only_terminates(ProcId process) {
     case ProcKind::sliding_choice:
     case ProcKind::chaos:
     case ProcKind::run:
+    case ProcKind::chase:
+    case ProcKind::opaque:
     case ProcKind::compression:
       return false;
     default:
@@ -555,6 +565,37 @@ bool StepRules::compression(ProcId process, Steps& out) {
   if (!step(processes_.operand(process, 1), steps)) return false;
   for (const Step& s : steps) out.push_back({s.label, after(process, 1, s)});
   return true;
+}
+
+// The first τ of each state is followed until there is none (4.6.1).
+bool StepRules::chase(ProcId process, Steps& out) {
+  ProcId state = processes_.operand(process, 0);
+  std::unordered_set<std::uint32_t> chased;
+  for (;;) {
+    if (!chased.insert(state.value).second || chased.size() > max_chased) {
+      diagnostics_.report(codes::chase_without_end, "`chase` does not end: its process diverges");
+      return false;
+    }
+    Steps steps;
+    if (!step(state, steps)) return false;
+    const auto tau =
+        std::find_if(steps.begin(), steps.end(), [](const Step& s) { return s.label == lts::tau; });
+    if (tau == steps.end()) {
+      for (const Step& s : steps) out.push_back({s.label, after(process, 0, s)});
+      return true;
+    }
+    const std::optional<ProcId> next = settle(tau->target);
+    if (!next) return false;
+    state = *next;
+  }
+}
+
+bool StepRules::refuse_opaque(ProcId process) {
+  const auto builtin = static_cast<Builtin>(processes_.word(process, 0));
+  diagnostics_.report(
+      codes::not_supported,
+      fmt::format("the transitions of `{}` are not supported yet", info(builtin).name));
+  return false;
 }
 
 // CHAOS(A) = STOP |~| ([] x:A @ x -> CHAOS(A)) (3.10.7).

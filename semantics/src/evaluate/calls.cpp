@@ -13,8 +13,7 @@ namespace perentie::semantics {
 
 Object* Machine::new_frame(ScopeId scope, Word parent) {
   const ScopeInfo& info = program_.scopes[scope];
-  Object* frame =
-      heap_.allocate(ObjectKind::frame, scope.value, frame_slots + info.slot_count);
+  Object* frame = heap_.allocate(ObjectKind::frame, scope.value, frame_slots + info.slot_count);
   (*frame)[frame_parent] = parent;
   for (const LetMember& member : info.members) {
     Object* object = heap_.allocate(member.is_function ? ObjectKind::closure : ObjectKind::thunk,
@@ -129,8 +128,7 @@ void Machine::name_process(FunctionId id, std::uint32_t group, Word scope_frame,
   }
   std::vector<ValueId> arguments;
   for (std::uint32_t i = 0; i < argument_count; ++i) {
-    arguments.push_back(function.ignored[i] ? values_.ignored()
-                                            : value_at(argument_count - 1 - i));
+    arguments.push_back(function.ignored[i] ? values_.ignored() : value_at(argument_count - 1 - i));
   }
   const ValueId name = values_.make_function(id.value, group, *scope);
   replace(argument_count + 1, processes_.call(name, arguments));
@@ -166,10 +164,14 @@ void Machine::apply_builtin(Builtin builtin, std::uint32_t operand_count,
   switch (builtin) {
     case Builtin::seq_null:
     case Builtin::seq_head:
-    case Builtin::seq_tail: return sequence_builtin(builtin, operand_count);
-    case Builtin::stop: return replace(operand_count, processes_.stop());
-    case Builtin::skip: return replace(operand_count, processes_.skip());
-    case Builtin::div: return replace(operand_count, processes_.div());
+    case Builtin::seq_tail:
+      return sequence_builtin(builtin, operand_count);
+    case Builtin::stop:
+      return replace(operand_count, processes_.stop());
+    case Builtin::skip:
+      return replace(operand_count, processes_.skip());
+    case Builtin::div:
+      return replace(operand_count, processes_.div());
     case Builtin::chaos:
       return replace(operand_count, processes_.chaos(builder_.event_set(value_at(0))));
     case Builtin::run:
@@ -180,7 +182,15 @@ void Machine::apply_builtin(Builtin builtin, std::uint32_t operand_count,
     case Builtin::prioritisepo:
       return replace(operand_count, builder_.prioritise_partial(process_at(3), value_at(2),
                                                                 value_at(1), value_at(0)));
-    default: break;
+    case Builtin::chase:
+    case Builtin::chase_nocache:
+      return replace(operand_count, processes_.chase(process_at(0)));
+    default:
+      break;
+  }
+  if (info(builtin).kind == BuiltinKind::opaque) {
+    const std::vector<ValueId> arguments = top_values(argument_count);
+    return replace(operand_count, processes_.opaque(builtin, arguments));
   }
   if (info(builtin).kind == BuiltinKind::process_function) {  // the compressions
     if (std::find(compressions_.begin(), compressions_.end(), builtin) == compressions_.end()) {
@@ -198,14 +208,13 @@ void Machine::sequence_builtin(Builtin builtin, std::uint32_t operand_count) {
   const Word seq = settled(top());
   const bool is_cell = seq.is_object() && seq.as_object()->kind == ObjectKind::cell;
   if (!is_cell && !(seq.is_value() && values_.is_seq(seq.as_value()))) {
-    fail(codes::wrong_type, fmt::format("`{}` needs a sequence, but this is `{}`",
-                                        info(builtin).name, describe(seq)));
+    fail(codes::wrong_type,
+         fmt::format("`{}` needs a sequence, but this is `{}`", info(builtin).name, describe(seq)));
   }
   const bool is_empty = seq == Word::value(values_.empty_seq());
   if (builtin == Builtin::seq_null) return replace(operand_count, values_.make_bool(is_empty));
   if (is_empty) {
-    fail(codes::empty_sequence,
-         fmt::format("`{}` of the empty sequence", info(builtin).name));
+    fail(codes::empty_sequence, fmt::format("`{}` of the empty sequence", info(builtin).name));
   }
   const bool head = builtin == Builtin::seq_head;
   Word part;

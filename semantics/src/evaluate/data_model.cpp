@@ -39,8 +39,8 @@ bool DataModel::is_application(ValueId value) const {
   return values_.kind(head) == ValueKind::atom && has_data(values_.as_symbol(head));
 }
 
-// From the value inwards along last components to the innermost one that lacks a field; empty if the
-// value is complete.
+// From the value inwards along last components to the innermost one that lacks a field; empty if
+// the value is complete.
 std::vector<ValueId> DataModel::incomplete_path(ValueId value) const {
   std::vector<ValueId> path{value};
   while (values_.kind(path.back()) == ValueKind::dot) {
@@ -69,8 +69,8 @@ bool DataModel::is_event(ValueId value) const {
          is_complete(value);
 }
 
-// The components that a value contributes when it is appended: a plain dotted value several, anything
-// else itself.
+// The components that a value contributes when it is appended: a plain dotted value several,
+// anything else itself.
 std::vector<ValueId> DataModel::components(ValueId value) const {
   if (values_.kind(value) != ValueKind::dot || is_application(value)) return {value};
   const auto items = values_.items(value);
@@ -143,12 +143,13 @@ void DataModel::check_field(ValueId application) const {
 std::vector<ValueId> DataModel::next_components(ValueId partial) const {
   const std::vector<ValueId> path = incomplete_path(partial);
   if (path.empty()) {
-    fail(codes::not_an_event, fmt::format("`{}` has no field left to take",
-                                          brief(values_, resolution_, partial)));
+    fail(codes::not_an_event,
+         fmt::format("`{}` has no field left to take", brief(values_, resolution_, partial)));
   }
   const auto next_set = [&](ValueId application) {
     const bool is_atom = values_.kind(application) == ValueKind::atom;
-    const SymbolId symbol = values_.as_symbol(is_atom ? application : values_.items(application)[0]);
+    const SymbolId symbol =
+        values_.as_symbol(is_atom ? application : values_.items(application)[0]);
     return fields(symbol)[is_atom ? 0 : values_.items(application).size() - 1];
   };
   // A declared field set restricts what lies inside the field as well (3.6.3): find the outermost
@@ -163,8 +164,9 @@ std::vector<ValueId> DataModel::next_components(ValueId partial) const {
   const ValueId set = next_set(path.back());
   if (!is_finite_set(values_, set)) {
     fail(codes::infinite_set,
-         fmt::format("the next field of `{}` ranges over the infinite set {}, which cannot be listed",
-                     brief(values_, resolution_, partial), brief(values_, resolution_, set)));
+         fmt::format(
+             "the next field of `{}` ranges over the infinite set {}, which cannot be listed",
+             brief(values_, resolution_, partial), brief(values_, resolution_, set)));
   }
   const auto items = values_.items(set);
   return {items.begin(), items.end()};
@@ -179,8 +181,8 @@ std::vector<ValueId> DataModel::components_after(ValueId set, std::span<const Va
     for (std::size_t level = 0; matches && level < path.size(); ++level) {
       const bool innermost = level + 1 == path.size();
       const bool is_atom = values_.kind(path[level]) == ValueKind::atom;
-      const auto wanted = is_atom ? std::span<const ValueId>(&path[level], 1)
-                                  : values_.items(path[level]);
+      const auto wanted =
+          is_atom ? std::span<const ValueId>(&path[level], 1) : values_.items(path[level]);
       const std::size_t fixed = innermost ? wanted.size() : wanted.size() - 1;
       matches = values_.kind(element) == ValueKind::dot && values_.items(element).size() > fixed &&
                 std::equal(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(fixed),
@@ -283,8 +285,8 @@ std::vector<ValueId> DataModel::decompose(ValueId set) const {
     std::vector<ValueId> row;
     for (std::size_t i = 0; i < width; ++i) row.push_back(values_.items(columns[i])[at[i]]);
     if (std::find(rows.begin(), rows.end(), row) == rows.end()) {
-      not_rectangular(fmt::format("it lacks `{}`",
-                                  brief(values_, resolution_, values_.make_dot(row))));
+      not_rectangular(
+          fmt::format("it lacks `{}`", brief(values_, resolution_, values_.make_dot(row))));
     }
     for (std::size_t i = width; i > 0 && ++at[i - 1] == values_.items(columns[i - 1]).size(); --i) {
       at[i - 1] = 0;

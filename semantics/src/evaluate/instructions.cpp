@@ -14,17 +14,29 @@ namespace perentie::semantics {
 void Machine::step(Instruction in) {
   const Address at = pc_ - 1;
   switch (in.op) {
-    case Op::push_value: push(ValueId{in.b}); break;
-    case Op::load: push((*frame_up(in.a))[frame_slots + in.b]); break;
-    case Op::load_global: push(globals_[in.b]); break;
+    case Op::push_value:
+      push(ValueId{in.b});
+      break;
+    case Op::load:
+      push((*frame_up(in.a))[frame_slots + in.b]);
+      break;
+    case Op::load_global:
+      push(globals_[in.b]);
+      break;
     case Op::store: {
       const Word word = pop();
       (*frame_.as_object())[frame_slots + in.b] = word;
       break;
     }
-    case Op::copy: push(top(in.b)); break;
-    case Op::pop: pop(); break;
-    case Op::force: force_top(); break;
+    case Op::copy:
+      push(top(in.b));
+      break;
+    case Op::pop:
+      pop();
+      break;
+    case Op::force:
+      force_top();
+      break;
     case Op::canon:
       top() = settled(top());
       if (!is_canonical(top())) {
@@ -33,8 +45,12 @@ void Machine::step(Instruction in) {
       }
       break;
 
-    case Op::enter: frame_ = Word::object(new_frame(ScopeId{in.b}, frame_)); break;
-    case Op::leave: frame_ = (*frame_.as_object())[frame_parent]; break;
+    case Op::enter:
+      frame_ = Word::object(new_frame(ScopeId{in.b}, frame_));
+      break;
+    case Op::leave:
+      frame_ = (*frame_.as_object())[frame_parent];
+      break;
     case Op::make_thunk: {
       Object* thunk = heap_.allocate(ObjectKind::thunk, in.b, 1);
       (*thunk)[0] = frame_;
@@ -48,12 +64,22 @@ void Machine::step(Instruction in) {
       push(Word::object(closure));
       break;
     }
-    case Op::process_ref: process_constant(in.a, FunctionId{in.b}, at); break;
-    case Op::call: call(in.b, at); break;
-    case Op::call_builtin: apply_builtin(static_cast<Builtin>(in.b), in.a, in.a); break;
-    case Op::ret: return_value(); break;
+    case Op::process_ref:
+      process_constant(in.a, FunctionId{in.b}, at);
+      break;
+    case Op::call:
+      call(in.b, at);
+      break;
+    case Op::call_builtin:
+      apply_builtin(static_cast<Builtin>(in.b), in.a, in.a);
+      break;
+    case Op::ret:
+      return_value();
+      break;
 
-    case Op::jump: pc_ = in.b; break;
+    case Op::jump:
+      pc_ = in.b;
+      break;
     case Op::jump_if_false:
       if (!boolean_at(0)) pc_ = in.b;
       pop();
@@ -70,19 +96,33 @@ void Machine::step(Instruction in) {
       if (value_at(0) == values_.empty_set()) pc_ = in.b;
       break;
 
-    case Op::make_list: make_list(in.b); break;
-    case Op::append: append(); break;
-    case Op::make_tuple: make_tuple(in.b); break;
-    case Op::make_map: make_map(in.b); break;
-    case Op::make_range_set: make_range_set(in.b != 0); break;
+    case Op::make_list:
+      make_list(in.b);
+      break;
+    case Op::append:
+      append();
+      break;
+    case Op::make_tuple:
+      make_tuple(in.b);
+      break;
+    case Op::make_map:
+      make_map(in.b);
+      break;
+    case Op::make_range_set:
+      make_range_set(in.b != 0);
+      break;
     case Op::dot: {
       ValueId value = value_at(0);
       for (std::uint32_t i = 1; i < in.b; ++i) value = data_.append(value_at(i), value);
       replace(in.b, value);
       break;
     }
-    case Op::tuple_product: replace(in.b, tuple_product(values_, set_operands(in.b))); break;
-    case Op::dot_product: dot_product(in.b); break;
+    case Op::tuple_product:
+      replace(in.b, tuple_product(values_, set_operands(in.b)));
+      break;
+    case Op::dot_product:
+      dot_product(in.b);
+      break;
     case Op::make_fields: {
       std::vector<ValueId> fields;
       for (const ValueId set : set_operands(in.b)) {
@@ -92,34 +132,49 @@ void Machine::step(Instruction in) {
       replace(in.b, values_.make_tuple(fields));
       break;
     }
-    case Op::datatype_set: datatype_set(SymbolId{in.b}); break;
+    case Op::datatype_set:
+      datatype_set(SymbolId{in.b});
+      break;
 
     case Op::add:
     case Op::subtract:
     case Op::multiply:
     case Op::divide:
-    case Op::modulo: arithmetic(in.op); break;
+    case Op::modulo:
+      arithmetic(in.op);
+      break;
     case Op::negate: {
       const std::int64_t value = integer_at(0, "negation");
       top() = checked_integer(-value, false);
       break;
     }
-    case Op::logical_not: replace(1, values_.make_bool(!boolean_at(0))); break;
-    case Op::check_bool: boolean_at(0); break;
+    case Op::logical_not:
+      replace(1, values_.make_bool(!boolean_at(0)));
+      break;
+    case Op::check_bool:
+      boolean_at(0);
+      break;
     case Op::equal:
     case Op::less:
     case Op::less_equal:
     case Op::greater:
-    case Op::greater_equal: compare(in.op, at); break;
+    case Op::greater_equal:
+      compare(in.op, at);
+      break;
 
-    case Op::acc_begin: accumulators_.emplace_back(); break;
+    case Op::acc_begin:
+      accumulators_.emplace_back();
+      break;
     case Op::acc_if_empty:
       if (accumulators_.back().empty()) {
         accumulators_.pop_back();
         pc_ = in.b;
       }
       break;
-    case Op::acc_add: accumulators_.back().push_back(value_at(0).bits); pop(); break;
+    case Op::acc_add:
+      accumulators_.back().push_back(value_at(0).bits);
+      pop();
+      break;
     case Op::acc_add_all: {
       const ValueId set = require_set(value_at(0));
       for (const ValueId v : elements_of(values_, set, "list the elements of")) {
@@ -144,10 +199,18 @@ void Machine::step(Instruction in) {
       push(values_.make_set(std::move(all)));
       break;
     }
-    case Op::iter_begin: iter_begin(in.b == 0); break;
-    case Op::iter_next: iter_next(in.b); break;
-    case Op::field_begin: field_begin(in.a != 0, in.b != 0); break;
-    case Op::field_next: field_next(in.b); break;
+    case Op::iter_begin:
+      iter_begin(in.b == 0);
+      break;
+    case Op::iter_next:
+      iter_next(in.b);
+      break;
+    case Op::field_begin:
+      field_begin(in.a != 0, in.b != 0);
+      break;
+    case Op::field_next:
+      field_next(in.b);
+      break;
 
     case Op::match_value:
     case Op::match_empty_seq:
@@ -156,14 +219,22 @@ void Machine::step(Instruction in) {
     case Op::match_empty_set:
     case Op::match_single_set:
     case Op::match_tuple:
-    case Op::match_dot: match(in); break;
-    case Op::no_match: fail_no_match(FunctionId{in.b}); break;
+    case Op::match_dot:
+      match(in);
+      break;
+    case Op::no_match:
+      fail_no_match(FunctionId{in.b});
+      break;
     case Op::no_match_value:
       fail(codes::no_clause_matches,
            fmt::format("`{}` does not match the pattern", describe(top())));
-    case Op::unsupported: fail_unsupported(SymbolId{in.b}); break;
+    case Op::unsupported:
+      fail_unsupported(SymbolId{in.b});
+      break;
 
-    default: process_instruction(in); break;
+    default:
+      process_instruction(in);
+      break;
   }
 }
 
@@ -180,9 +251,15 @@ void Machine::arithmetic(Op op) {
   std::int64_t result = 0;
   bool overflow = false;
   switch (op) {
-    case Op::add: overflow = __builtin_add_overflow(a, b, &result); break;
-    case Op::subtract: overflow = __builtin_sub_overflow(a, b, &result); break;
-    case Op::multiply: overflow = __builtin_mul_overflow(a, b, &result); break;
+    case Op::add:
+      overflow = __builtin_add_overflow(a, b, &result);
+      break;
+    case Op::subtract:
+      overflow = __builtin_sub_overflow(a, b, &result);
+      break;
+    case Op::multiply:
+      overflow = __builtin_mul_overflow(a, b, &result);
+      break;
     default: {
       if (b == 0) fail(codes::divide_by_zero, "division by zero");
       // Division rounds down, and the remainder has the sign of the divisor (3.2.2).
@@ -224,15 +301,21 @@ void Machine::compare(Op op, Address at) {
   if (op == Op::equal) return replace(2, values_.make_bool(a == b));
   const std::optional<Ordering> order = compare_partially(values_, to_value(a), to_value(b));
   if (!order) {
-    fail(codes::wrong_type,
-         fmt::format("`{}` and `{}` have no order", describe(a), describe(b)));
+    fail(codes::wrong_type, fmt::format("`{}` and `{}` have no order", describe(a), describe(b)));
   }
   bool holds = false;
   switch (op) {
-    case Op::less: holds = order == Ordering::less; break;
-    case Op::less_equal: holds = order == Ordering::less || order == Ordering::equal; break;
-    case Op::greater: holds = order == Ordering::greater; break;
-    default: holds = order == Ordering::greater || order == Ordering::equal;
+    case Op::less:
+      holds = order == Ordering::less;
+      break;
+    case Op::less_equal:
+      holds = order == Ordering::less || order == Ordering::equal;
+      break;
+    case Op::greater:
+      holds = order == Ordering::greater;
+      break;
+    default:
+      holds = order == Ordering::greater || order == Ordering::equal;
   }
   replace(2, values_.make_bool(holds));
 }
@@ -290,8 +373,8 @@ void Machine::make_range_set(bool bounded) {
 
 ValueId Machine::require_set(ValueId value) const {
   if (values_.is_set(value)) return value;
-  fail(codes::wrong_type, fmt::format("a set is needed, but this is `{}`",
-                                      brief(values_, resolution_, value)));
+  fail(codes::wrong_type,
+       fmt::format("a set is needed, but this is `{}`", brief(values_, resolution_, value)));
 }
 
 std::vector<ValueId> Machine::set_operands(std::uint32_t count) {
@@ -439,8 +522,8 @@ void Machine::match(Instruction in) {
                                : is_value ? values_.items(word.as_value()).size()
                                           : 0;
       if (size != in.b) {
-        fail(codes::wrong_type, fmt::format("a tuple of {} items is needed, but this is `{}`", in.b,
-                                            describe(word)));
+        fail(codes::wrong_type,
+             fmt::format("a tuple of {} items is needed, but this is `{}`", in.b, describe(word)));
       }
       pop();
       for (std::size_t i = size; i > 0; --i) {
@@ -494,8 +577,8 @@ bool Machine::match_ends(const EndsPattern& pattern) {
   return true;
 }
 
-// Dot patterns match component by component: an atom opens the application that it heads, a taken item
-// is one whole component, and the last taken item is all that remains (1.9.5).
+// Dot patterns match component by component: an atom opens the application that it heads, a taken
+// item is one whole component, and the last taken item is all that remains (1.9.5).
 bool Machine::match_dot(const DotItems& pattern) {
   const ValueId value = value_at(0);
   pop();
@@ -572,23 +655,31 @@ void Machine::timed_choice() {
 void Machine::fail_unsupported(SymbolId id) {
   const Symbol& symbol = resolution_.symbols[id];
   const bool is_builtin = !symbol.span;
-  fail(codes::not_supported,
-       is_builtin ? fmt::format("`{}` is not supported yet", symbol.qualified)
-                  : fmt::format("`{}` cannot be used: {} are not supported yet", symbol.qualified,
-                                symbol.unsupported_construct));
+  fail(codes::not_supported, is_builtin
+                                 ? fmt::format("`{}` is not supported yet", symbol.qualified)
+                                 : fmt::format("`{}` cannot be used: {} are not supported yet",
+                                               symbol.qualified, symbol.unsupported_construct));
 }
 
 // --- Processes ----------------------------------------------------------------------------------
 
 void Machine::process_instruction(Instruction in) {
   switch (in.op) {
-    case Op::check_event: builder_.event(value_at(0)); break;
-    case Op::check_process: process_at(0); break;
+    case Op::check_event:
+      builder_.event(value_at(0));
+      break;
+    case Op::check_process:
+      process_at(0);
+      break;
     case Op::prefix:
       replace(2, processes_.prefix(builder_.event(value_at(1)), process_at(0)));
       break;
-    case Op::delayed_prefix: delayed_prefix(); break;
-    case Op::timed_choice: timed_choice(); break;
+    case Op::delayed_prefix:
+      delayed_prefix();
+      break;
+    case Op::timed_choice:
+      timed_choice();
+      break;
     case Op::event_set_prefix:
       replace(2, builder_.event_set_prefix(value_at(1), process_at(0)));
       break;
@@ -600,8 +691,8 @@ void Machine::process_instruction(Instruction in) {
                                         process_at(0)));
       break;
     case Op::alphabet_parallel:
-      replace(4, builder_.alphabet_parallel(process_at(3), value_at(2), value_at(1),
-                                            process_at(0)));
+      replace(4,
+              builder_.alphabet_parallel(process_at(3), value_at(2), value_at(1), process_at(0)));
       break;
     case Op::hide:
       replace(2, builder_.hide(static_cast<ProcKind>(in.b), process_at(1), value_at(0)));
@@ -613,7 +704,9 @@ void Machine::process_instruction(Instruction in) {
       operands_.resize(operands_.size() - 2);
       break;
     }
-    case Op::acc_process: replicated(static_cast<ProcKind>(in.b), in.a != 0); break;
+    case Op::acc_process:
+      replicated(static_cast<ProcKind>(in.b), in.a != 0);
+      break;
     case Op::acc_add_tie:
       accumulators_.back().push_back(value_at(1).bits);
       accumulators_.back().push_back(value_at(0).bits);
@@ -642,8 +735,11 @@ void Machine::process_instruction(Instruction in) {
       pop();
       break;
     }
-    case Op::acc_link: replicated_link(); break;
-    default: PERENTIE_CHECK(false, "an instruction without meaning");
+    case Op::acc_link:
+      replicated_link();
+      break;
+    default:
+      PERENTIE_CHECK(false, "an instruction without meaning");
   }
 }
 

@@ -73,7 +73,8 @@ bool Machine::canonicalise_tail(std::uint32_t heads, Word tail) {
   if (tail.is_value()) {
     ValueId seq = tail.as_value();
     if (!values_.is_seq(seq)) {
-      fail(codes::wrong_type, fmt::format("a sequence is needed, but this is `{}`", describe(tail)));
+      fail(codes::wrong_type,
+           fmt::format("a sequence is needed, but this is `{}`", describe(tail)));
     }
     for (std::uint32_t i = 0; i < heads; ++i) seq = values_.make_cons(to_value(top(i)), seq);
     replace(heads, seq);
@@ -116,8 +117,8 @@ void Machine::canon_operand(std::size_t index, Address retry_at) {
 
 // --- Scopes -------------------------------------------------------------------------------------
 
-// Gives a frame and all that enclose it their canonical scopes, from the outermost inwards. Leaves a
-// value that is to be dropped.
+// Gives a frame and all that enclose it their canonical scopes, from the outermost inwards. Leaves
+// a value that is to be dropped.
 bool Machine::identify_scope(Word aim) {
   for (;;) {
     Word next;

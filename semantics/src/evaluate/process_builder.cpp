@@ -22,9 +22,9 @@ EventId ProcessBuilder::event(ValueId value) {
   if (!data_.is_event(value)) {
     const std::string text = brief(values_, resolution_, value);
     const bool is_partial = !data_.is_complete(value);
-    fail(codes::not_an_event,
-         is_partial ? fmt::format("`{}` lacks fields, so it is not an event", text)
-                    : fmt::format("`{}` is not an event", text));
+    fail(codes::not_an_event, is_partial
+                                  ? fmt::format("`{}` lacks fields, so it is not an event", text)
+                                  : fmt::format("`{}` is not an event", text));
   }
   return events_.intern(value);
 }
@@ -132,10 +132,14 @@ ProcId ProcessBuilder::link_parallel(ProcId left, std::span<const Tie> ties, Pro
 ProcId ProcessBuilder::replicated(ProcKind kind, std::span<const ProcId> operands, ValueId set,
                                   bool is_choice_of_fields) {
   switch (kind) {
-    case ProcKind::external_choice: return processes_.external_choice(operands);
-    case ProcKind::interleave: return processes_.interleave(operands);
-    case ProcKind::parallel: return processes_.parallel(event_set(set), operands);
-    case ProcKind::sync_choice: return processes_.sync_choice(event_set(set), operands);
+    case ProcKind::external_choice:
+      return processes_.external_choice(operands);
+    case ProcKind::interleave:
+      return processes_.interleave(operands);
+    case ProcKind::parallel:
+      return processes_.parallel(event_set(set), operands);
+    case ProcKind::sync_choice:
+      return processes_.sync_choice(event_set(set), operands);
     case ProcKind::internal_choice:
       if (operands.empty()) {
         fail(codes::empty_choice, is_choice_of_fields
@@ -144,7 +148,8 @@ ProcId ProcessBuilder::replicated(ProcKind kind, std::span<const ProcId> operand
       }
       if (operands.size() == 1 && is_choice_of_fields) return operands[0];
       return processes_.internal_choice(operands);
-    default: break;
+    default:
+      break;
   }
   PERENTIE_CHECK(kind == ProcKind::sequential, "an operator that cannot be replicated");
   if (operands.empty()) return processes_.skip();
@@ -229,8 +234,7 @@ ProcId ProcessBuilder::prioritise_partial(ProcId operand, ValueId prioritised, V
   std::set_difference(members.begin(), members.end(), maximals.begin(), maximals.end(),
                       std::back_inserter(below_tau));
   const EventSetId below = events_.make_set(std::move(below_tau));
-  const EventRelationId relation =
-      events_.make_relation({blocked_by.begin(), blocked_by.end()});
+  const EventRelationId relation = events_.make_relation({blocked_by.begin(), blocked_by.end()});
   return processes_.prioritise_partial(below, relation, operand);
 }
 

@@ -37,7 +37,8 @@ std::int64_t first_of(const ValueStore& values, ValueId from_set) {
   return values.as_int(ValueId{values.word(from_set, 0)});
 }
 
-// Whether every element of the (possibly infinite) `a` is in the infinite `b`, as far as shapes tell.
+// Whether every element of the (possibly infinite) `a` is in the infinite `b`, as far as shapes
+// tell.
 bool is_inside(const ValueStore& values, ValueId a, ValueId b) {
   if (a == b) return true;
   if (is_set_kind(values, a, ValueKind::from_set)) {
@@ -78,8 +79,7 @@ ValueId set_union(ValueStore& values, ValueId a, ValueId b) {
   return values.make_sorted_set(merged);
 }
 
-ValueId set_intersection(ValueStore& values, const Resolution& resolution, ValueId a,
-                         ValueId b) {
+ValueId set_intersection(ValueStore& values, const Resolution& resolution, ValueId a, ValueId b) {
   if (a == b) return a;
   if (!is_finite_set(values, a)) std::swap(a, b);
   if (!is_finite_set(values, a)) {

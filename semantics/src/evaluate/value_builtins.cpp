@@ -88,7 +88,8 @@ ValueId ValueBuiltins::symmetric_closure(ValueId relation, ValueId elements) con
   std::vector<ValueId> pairs;
   for (const ValueId x : elements_of(values, elements, "close over")) {
     const ValueId representative = find(x);
-    if (representative == x || !set_contains(values, resolution, elements, representative)) continue;
+    if (representative == x || !set_contains(values, resolution, elements, representative))
+      continue;
     const ValueId pair[] = {representative, x};
     pairs.push_back(values.make_tuple(pair));
   }
@@ -101,37 +102,48 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
   const auto map = [&](std::size_t i) { return require_map(arguments[i], name); };
   const auto seq = [&](std::size_t i) { return require_seq(arguments[i], name); };
   switch (builtin) {
-    case Builtin::int_set: return values.int_set();
-    case Builtin::bool_set: return values.make_set({values.make_bool(false), values.make_bool(true)});
+    case Builtin::int_set:
+      return values.int_set();
+    case Builtin::bool_set:
+      return values.make_set({values.make_bool(false), values.make_bool(true)});
     case Builtin::char_set: {
       std::vector<ValueId> all;
       for (int c = 0; c < 256; ++c) all.push_back(values.make_char(static_cast<unsigned char>(c)));
       return values.make_set(std::move(all));
     }
-    case Builtin::events: return all_events();
-    case Builtin::true_constant: return values.make_bool(true);
-    case Builtin::false_constant: return values.make_bool(false);
-    case Builtin::empty_map: return values.make_map({});
+    case Builtin::events:
+      return all_events();
+    case Builtin::true_constant:
+      return values.make_bool(true);
+    case Builtin::false_constant:
+      return values.make_bool(false);
+    case Builtin::empty_map:
+      return values.make_map({});
 
-    case Builtin::set_union: return set_union(values, set(0), set(1));
-    case Builtin::set_inter: return set_intersection(values, resolution, set(0), set(1));
-    case Builtin::set_diff: return set_difference(values, resolution, set(0), set(1));
+    case Builtin::set_union:
+      return set_union(values, set(0), set(1));
+    case Builtin::set_inter:
+      return set_intersection(values, resolution, set(0), set(1));
+    case Builtin::set_diff:
+      return set_difference(values, resolution, set(0), set(1));
     case Builtin::set_union_all:
       for (const ValueId inner : elements_of(values, set(0), "form the distributed union of")) {
         require_set(inner, name);
       }
       return union_of_all(values, arguments[0]);
     case Builtin::set_inter_all:
-      for (const ValueId inner : elements_of(values, set(0), "form the distributed intersection of")) {
+      for (const ValueId inner :
+           elements_of(values, set(0), "form the distributed intersection of")) {
         require_set(inner, name);
       }
       return intersection_of_all(values, resolution, arguments[0]);
     case Builtin::set_member:
       return values.make_bool(set_contains(values, resolution, set(1), arguments[0]));
     case Builtin::set_card:
-      return values.make_int(static_cast<std::int64_t>(
-          elements_of(values, set(0), "take the cardinality of").size()));
-    case Builtin::set_empty: return values.make_bool(set(0) == values.empty_set());
+      return values.make_int(
+          static_cast<std::int64_t>(elements_of(values, set(0), "take the cardinality of").size()));
+    case Builtin::set_empty:
+      return values.make_bool(set(0) == values.empty_set());
     case Builtin::set_of_seq: {
       std::vector<ValueId> elements;
       for (ValueId s = seq(0); values.kind(s) == ValueKind::cons; s = values.tail(s)) {
@@ -139,8 +151,10 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
       }
       return values.make_set(std::move(elements));
     }
-    case Builtin::power_set: return power_set(values, set(0));
-    case Builtin::all_sequences: return values.make_seq_set(set(0));
+    case Builtin::power_set:
+      return power_set(values, set(0));
+    case Builtin::all_sequences:
+      return values.make_seq_set(set(0));
     case Builtin::seq_of_set:
       return values.make_seq(elements_of(values, set(0), "make a sequence of"));
 
@@ -153,8 +167,8 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
     }
     case Builtin::map_lookup:
       if (const std::optional<ValueId> found = map_find(map(0), arguments[1])) return *found;
-      fail(codes::key_not_found, fmt::format("the map has no key `{}`",
-                                             brief(values, resolution, arguments[1])));
+      fail(codes::key_not_found,
+           fmt::format("the map has no key `{}`", brief(values, resolution, arguments[1])));
     case Builtin::map_member:
       return values.make_bool(map_find(map(0), arguments[1]).has_value());
     case Builtin::map_to_list: {
@@ -185,13 +199,15 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
       std::erase_if(entries, [&](const Entry& e) { return e.first == arguments[1]; });
       return values.make_map(std::move(entries));
     }
-    case Builtin::all_maps: return all_maps(values, set(0), set(1));
+    case Builtin::all_maps:
+      return all_maps(values, set(0), set(1));
 
     case Builtin::error: {
       const std::optional<std::string> text = values.as_string(seq(0));
       fail(codes::user_error, text ? *text : brief(values, resolution, arguments[0]));
     }
-    case Builtin::show: return values.make_string(show_value(show, arguments[0]));
+    case Builtin::show:
+      return values.make_string(show_value(show, arguments[0]));
     case Builtin::extensions: {
       std::vector<ValueId> found;
       for (const auto& extension : data.extensions(arguments[0], true)) {
@@ -199,9 +215,11 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
       }
       return values.make_set(std::move(found));
     }
-    case Builtin::productions: return values.make_set(data.productions(arguments[0]));
+    case Builtin::productions:
+      return values.make_set(data.productions(arguments[0]));
 
-    case Builtin::mtransclose: return symmetric_closure(set(0), set(1));
+    case Builtin::mtransclose:
+      return symmetric_closure(set(0), set(1));
     case Builtin::transpose: {
       std::vector<ValueId> pairs;
       for (const ValueId pair : elements_of(values, set(0), "transpose")) {
@@ -211,7 +229,8 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
       }
       return values.make_set(std::move(pairs));
     }
-    default: break;
+    default:
+      break;
   }
   PERENTIE_CHECK(false, "a built-in that is no function of values");
   return {};

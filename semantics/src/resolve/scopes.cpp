@@ -53,7 +53,8 @@ void Resolver::Impl::declare_builtins(base::Interner& names) {
     }
     symbol.groups = builtin.arguments.empty() ? 0 : 1;
     symbol.is_process = builtin.kind == BuiltinKind::process_constant ||
-                        builtin.kind == BuiltinKind::process_function;
+                        builtin.kind == BuiltinKind::process_function ||
+                        builtin.kind == BuiltinKind::opaque;
     const SymbolId id = result.symbols.add(std::move(symbol));
     if (builtin.import == Import::no) {
       bind(name, id);

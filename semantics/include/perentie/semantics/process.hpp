@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "perentie/base/term_table.hpp"
+#include "perentie/semantics/builtins.hpp"
 #include "perentie/semantics/event.hpp"
 #include "perentie/semantics/value.hpp"
 
@@ -56,6 +57,9 @@ class ProcStore {
   ProcId unary(ProcKind kind, std::uint32_t word, ProcId operand);
   ProcId chaos(EventSetId events);
   ProcId run(EventSetId events);
+  ProcId chase(ProcId operand) { return intern(ProcKind::chase, {operand.value}); }
+  /// What a built-in makes of values, without its meaning.
+  ProcId opaque(Builtin builtin, std::span<const ValueId> arguments);
   ProcId call(ValueId function, std::span<const ValueId> arguments);
   /// The term of the same kind with other words; `words` must not lie in this store.
   ProcId rebuild(ProcId process, std::span<const std::uint32_t> words) {

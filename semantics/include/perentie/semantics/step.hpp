@@ -71,6 +71,8 @@ class StepRules {
   bool prioritise(ProcId process, Steps& out);
   bool prioritise_partial(ProcId process, Steps& out);
   bool compression(ProcId process, Steps& out);
+  bool chase(ProcId process, Steps& out);
+  bool refuse_opaque(ProcId process);
   void chaos(ProcId process, Steps& out);
 
   std::optional<ProcId> sequential_target(ProcId left, ProcId right);
