@@ -46,9 +46,12 @@ std::string complaint(const CLI::App& program, const CLI::Error& error, const st
   return fmt::format("perentie: error: {}\nRun with --help for more information.\n", what);
 }
 
-bool standard_output_is_written() {
+// What was printed may still be in a buffer: the exit code, unless it cannot be written.
+ExitCode after_writing(ExitCode code, const Console& console) {
   std::cout.flush();
-  return std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  console.error("standard output could not be written");
+  return ExitCode::io_error;
 }
 
 ExitCode run(int argc, char** argv) {
@@ -72,15 +75,14 @@ ExitCode run(int argc, char** argv) {
   for (const auto add : {add_monitor, add_lts, add_eval, add_dump}) {
     commands.push_back(add(program));
   }
+  Console console;
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool is_success = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     program.exit(error);  // prints the help, the version or the complaint
-    if (!is_success) return ExitCode::usage;
-    return standard_output_is_written() ? ExitCode::ok : ExitCode::io_error;
+    return is_success ? after_writing(ExitCode::ok, console) : ExitCode::usage;
   }
-  Console console;
   console.set_colour(colour == "auto"     ? ColourChoice::automatic
                      : colour == "always" ? ColourChoice::always
                                           : ColourChoice::never);
@@ -89,11 +91,7 @@ ExitCode run(int argc, char** argv) {
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     const ExitCode code = command.run(console);
-    if (!standard_output_is_written()) {
-      console.error("standard output could not be written");
-      return ExitCode::io_error;
-    }
-    return interrupted().load() ? ExitCode::interrupted : code;
+    return after_writing(interrupted().load() ? ExitCode::interrupted : code, console);
   }
   return ExitCode::usage;
 }
