@@ -12,10 +12,12 @@ if ! command -v dpkg-query >/dev/null 2>&1; then
   exit 0
 fi
 
+# A package may be there for another architecture too, or only.
+native=$(dpkg --print-architecture)
 missing=
 for group in "$@"; do
   for package in $(awk -v group="$group" '$1 == group { print $2 }' "$list"); do
-    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package:$native" 2>/dev/null || true)
     [ "$status" = installed ] || missing="$missing $package"
   done
 done
