@@ -17,8 +17,8 @@ native=$(dpkg --print-architecture)
 missing=
 for group in "$@"; do
   for package in $(awk -v group="$group" '$1 == group { print $2 }' "$list"); do
-    status=$(dpkg-query -W -f '${db:Status-Status}' "$package:$native" 2>/dev/null || true)
-    [ "$status" = installed ] || missing="$missing $package"
+    dpkg-query -W -f '${db:Status-Status} ${Architecture}\n' "$package" 2>/dev/null |
+      grep -qxE "installed ($native|all)" || missing="$missing $package"
   done
 done
 [ -n "$missing" ] || exit 0
