@@ -1,5 +1,5 @@
-// The evidence flows from uses to definitions (an operand of `[]` is a process) and from definitions
-// to their callers (a constant that equals a process is one), until nothing changes.
+// The evidence flows from uses to definitions (an operand of `[]` is a process) and from
+// definitions to their callers (a constant that equals a process is one), until nothing changes.
 #include "process_kinds.hpp"
 
 #include <algorithm>
@@ -40,7 +40,8 @@ class ProcessMarker {
  private:
   struct Definition {
     SymbolId symbol;
-    std::vector<ExprId> leaves;  // what the definition may evaluate to: its bodies through if and let
+    std::vector<ExprId>
+        leaves;  // what the definition may evaluate to: its bodies through if and let
   };
 
   void collect_definitions() {
@@ -54,7 +55,8 @@ class ProcessMarker {
                      },
                      [&](const parser::FunctionDecl& d) {
                        std::vector<ExprId> bodies;
-                       for (const parser::Clause& c : tree_.list(d.clauses)) bodies.push_back(c.body);
+                       for (const parser::Clause& c : tree_.list(d.clauses))
+                         bodies.push_back(c.body);
                        if (const SymbolId symbol = resolution_.of_decl[i]) {
                          add_definition(symbol, std::move(bodies));
                        }
@@ -88,8 +90,7 @@ class ProcessMarker {
   }
 
   static bool is_process_operator(InfixOp op) {
-    return op == InfixOp::guard ||
-           (op >= InfixOp::sequential && op <= InfixOp::project);
+    return op == InfixOp::guard || (op >= InfixOp::sequential && op <= InfixOp::project);
   }
 
   // The symbol that a leaf names or calls, and how many argument groups it gives.
@@ -108,26 +109,25 @@ class ProcessMarker {
   }
 
   bool is_process(ExprId leaf) const {
-    return std::visit(
-        overload{
-            [](const parser::PrefixExpr&) { return true; },
-            [](const parser::ParallelExpr&) { return true; },
-            [](const parser::AlphabetParallelExpr&) { return true; },
-            [](const parser::ExceptionExpr&) { return true; },
-            [](const parser::SyncChoiceExpr&) { return true; },
-            [](const parser::SyncInterruptExpr&) { return true; },
-            [](const parser::LinkParallelExpr&) { return true; },
-            [](const parser::RenameExpr&) { return true; },
-            [](const parser::ReplicatedExpr&) { return true; },
-            [](const parser::ReplicatedLinkExpr&) { return true; },
-            [](const parser::InfixExpr& e) { return is_process_operator(e.op); },
-            [&](const auto&) {
-              const Use use = use_of(leaf);
-              return use.symbol && resolution_.symbols[use.symbol].is_process &&
-                     use.groups == resolution_.symbols[use.symbol].groups;
-            },
-        },
-        tree_.exprs[leaf].node);
+    return std::visit(overload{
+                          [](const parser::PrefixExpr&) { return true; },
+                          [](const parser::ParallelExpr&) { return true; },
+                          [](const parser::AlphabetParallelExpr&) { return true; },
+                          [](const parser::ExceptionExpr&) { return true; },
+                          [](const parser::SyncChoiceExpr&) { return true; },
+                          [](const parser::SyncInterruptExpr&) { return true; },
+                          [](const parser::LinkParallelExpr&) { return true; },
+                          [](const parser::RenameExpr&) { return true; },
+                          [](const parser::ReplicatedExpr&) { return true; },
+                          [](const parser::ReplicatedLinkExpr&) { return true; },
+                          [](const parser::InfixExpr& e) { return is_process_operator(e.op); },
+                          [&](const auto&) {
+                            const Use use = use_of(leaf);
+                            return use.symbol && resolution_.symbols[use.symbol].is_process &&
+                                   use.groups == resolution_.symbols[use.symbol].groups;
+                          },
+                      },
+                      tree_.exprs[leaf].node);
   }
 
   void mark(SymbolId symbol) { resolution_.symbols[symbol].is_process = true; }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "evaluate/brief.hpp"
+#include "maps.hpp"
 #include "perentie/parser/operators.hpp"
 
 namespace perentie::semantics {
@@ -146,12 +147,11 @@ class Printer {
 
   void print_map(ValueId value) {
     std::vector<Piece> pieces{std::string("(|")};
-    const auto items = values_.items(value);
-    for (std::size_t i = 0; i < items.size(); i += 2) {
-      pieces.emplace_back(std::string(i == 0 ? " " : ", "));
-      pieces.emplace_back(items[i]);
+    for (const auto& [key, result] : map_entries(values_, value)) {
+      pieces.emplace_back(std::string(pieces.size() == 1 ? " " : ", "));
+      pieces.emplace_back(key);
       pieces.emplace_back(std::string(" => "));
-      pieces.emplace_back(items[i + 1]);
+      pieces.emplace_back(result);
     }
     pieces.emplace_back(std::string(" |)"));
     then(std::move(pieces));

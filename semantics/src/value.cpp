@@ -4,6 +4,8 @@
 #include <array>
 #include <string>
 
+#include "maps.hpp"
+
 namespace perentie::semantics {
 namespace {
 
@@ -21,6 +23,7 @@ ValueStore::ValueStore() {
   true_ = unit(ValueKind::boolean, 1);
   empty_seq_ = unit(ValueKind::empty_seq, 0);
   empty_set_ = intern(ValueKind::set, std::span<const std::uint32_t>{});
+  empty_map_ = intern(ValueKind::map, std::span<const std::uint32_t>{});
   int_set_ = unit(ValueKind::int_set, 0);
   ignored_ = unit(ValueKind::ignored, 0);
 }
@@ -122,16 +125,8 @@ ValueId ValueStore::make_data_set(SymbolId datatype) {
   return intern(ValueKind::data_set, {datatype.value});
 }
 
-ValueId ValueStore::make_map(std::vector<std::pair<ValueId, ValueId>> entries) {
-  const auto less = [this](const auto& a, const auto& b) { return compare(a.first, b.first) < 0; };
-  std::stable_sort(entries.begin(), entries.end(), less);
-  std::vector<ValueId> flat;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (i + 1 < entries.size() && entries[i + 1].first == entries[i].first) continue;
-    flat.push_back(entries[i].first);
-    flat.push_back(entries[i].second);
-  }
-  return intern(ValueKind::map, std::span<const ValueId>(flat));
+ValueId ValueStore::make_map_node(ValueId key, ValueId value, ValueId smaller, ValueId greater) {
+  return intern(ValueKind::map, {key.bits, value.bits, smaller.bits, greater.bits});
 }
 
 ValueId ValueStore::make_process(ProcId process) {
@@ -152,9 +147,25 @@ std::span<const ValueId> ValueStore::items(ValueId value) const {
   return {reinterpret_cast<const ValueId*>(words.data()), words.size()};
 }
 
+namespace {
+
+// The first two keys or values in which two maps differ; if there are none, how their sizes differ.
+std::pair<std::optional<MapEntry>, int> first_difference(const ValueStore& values, ValueId a,
+                                                         ValueId b) {
+  const std::vector<MapEntry> as = map_entries(values, a);
+  const std::vector<MapEntry> bs = map_entries(values, b);
+  for (std::size_t i = 0; i < std::min(as.size(), bs.size()); ++i) {
+    if (as[i].first != bs[i].first) return {MapEntry{as[i].first, bs[i].first}, 0};
+    if (as[i].second != bs[i].second) return {MapEntry{as[i].second, bs[i].second}, 0};
+  }
+  return {std::nullopt, sign(as.size(), bs.size())};
+}
+
+}  // namespace
+
 int ValueStore::compare(ValueId a, ValueId b) const {
-  // Nested values are compared with an explicit stack: data can be deep. The stack holds pairs still
-  // to compare, the first difference decides.
+  // Nested values are compared with an explicit stack: data can be deep. The stack holds pairs
+  // still to compare, the first difference decides.
   std::vector<std::pair<ValueId, ValueId>> stack{{a, b}};
   while (!stack.empty()) {
     const auto [x, y] = stack.back();
@@ -181,13 +192,18 @@ int ValueStore::compare(ValueId a, ValueId b) const {
       stack.emplace_back(head(x), head(y));
       continue;
     }
-    if (kx == ValueKind::dot || kx == ValueKind::tuple || kx == ValueKind::set ||
-        kx == ValueKind::map) {
+    if (kx == ValueKind::map) {
+      const auto difference = first_difference(*this, x, y);
+      if (!difference.first) return difference.second;
+      stack.push_back(*difference.first);
+      continue;
+    }
+    if (kx == ValueKind::dot || kx == ValueKind::tuple || kx == ValueKind::set) {
       const auto xs = items(x);
       const auto ys = items(y);
       const std::size_t common = std::min(xs.size(), ys.size());
-      const auto [px, py] = std::mismatch(xs.begin(), xs.begin() + static_cast<std::ptrdiff_t>(common),
-                                          ys.begin());
+      const auto [px, py] =
+          std::mismatch(xs.begin(), xs.begin() + static_cast<std::ptrdiff_t>(common), ys.begin());
       if (px == xs.begin() + static_cast<std::ptrdiff_t>(common)) {
         return sign(xs.size(), ys.size());
       }
@@ -235,15 +251,12 @@ Ordering compare_inclusion(const ValueStore& values, ValueId a, ValueId b) {
 
 // `a <= b` as maps: every key of `a` is in `b` with a value that is at least as great.
 bool is_submap(const ValueStore& values, ValueId a, ValueId b) {
-  const auto as = values.items(a);
-  const auto bs = values.items(b);
-  for (std::size_t i = 0, j = 0; i < as.size(); i += 2, j += 2) {
-    while (j < bs.size() && bs[j] != as[i]) j += 2;
-    if (j >= bs.size()) return false;
-    const auto order = compare_partially(values, as[i + 1], bs[j + 1]);
-    if (as[i + 1] != bs[j + 1] && order != Ordering::less) return false;
-  }
-  return true;
+  const std::vector<MapEntry> entries = map_entries(values, a);
+  return std::all_of(entries.begin(), entries.end(), [&](const MapEntry& entry) {
+    const std::optional<ValueId> other = map_find(values, b, entry.first);
+    return other && (entry.second == *other ||
+                     compare_partially(values, entry.second, *other) == Ordering::less);
+  });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "../maps.hpp"
 #include "brief.hpp"
 #include "machine.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
@@ -363,7 +364,7 @@ void Machine::make_map(std::uint32_t entries) {
   const std::vector<ValueId> flat = top_values(2 * std::size_t{entries});
   std::vector<std::pair<ValueId, ValueId>> pairs;
   for (std::size_t i = 0; i < flat.size(); i += 2) pairs.emplace_back(flat[i], flat[i + 1]);
-  replace(flat.size(), values_.make_map(std::move(pairs)));
+  replace(flat.size(), semantics::make_map(values_, pairs));
 }
 
 void Machine::make_range_set(bool bounded) {

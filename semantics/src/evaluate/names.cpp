@@ -47,7 +47,9 @@ std::string Machine::scope_prefix(std::uint32_t scope, SymbolId innermost) const
     const SymbolId function = info.function ? program_.functions[info.function].symbol : SymbolId{};
     if (!function) {
       pass_constants(info.owner);
-      prefix = (info.function ? "(\\" + values + " @ …)::" : "ANNON(" + values + ")::") + prefix;
+      prefix = (info.function ? fmt::format("(\\{} @ …)::", values)
+                              : fmt::format("ANNON({})::", values)) +
+               prefix;
       continue;
     }
     pass_constants(function);
@@ -68,7 +70,7 @@ std::string Machine::function_name(ValueId function) const {
   std::uint32_t scope = values_.word(function, 2);
   std::string applied;  // the argument groups that it has already
   for (std::uint32_t group = values_.word(function, 1); group > 0; --group) {
-    applied = "(" + frame_values(scope) + ")" + applied;
+    applied = fmt::format("({}){}", frame_values(scope), applied);
     scope = scopes_.words(scope)[1];
   }
   if (info.is_timed_prefix) {

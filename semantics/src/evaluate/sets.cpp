@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "../maps.hpp"
 #include "failure.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 
@@ -220,7 +221,7 @@ ValueId all_maps(ValueStore& values, ValueId keys, ValueId results) {
     }
   }
   std::vector<ValueId> all;
-  for (auto& map : maps) all.push_back(values.make_map(std::move(map)));
+  for (auto& map : maps) all.push_back(make_map(values, map));
   return values.make_set(std::move(all));
 }
 

@@ -11,12 +11,6 @@
 #include "sets.hpp"
 
 namespace perentie::semantics {
-namespace {
-
-using Entry = std::pair<ValueId, ValueId>;
-
-}  // namespace
-
 ValueId ValueBuiltins::require_set(ValueId value, std::string_view function) const {
   if (values.is_set(value)) return value;
   fail(codes::wrong_type, fmt::format("`{}` needs a set, but this is `{}`", function,
@@ -35,27 +29,12 @@ ValueId ValueBuiltins::require_map(ValueId value, std::string_view function) con
                                       brief(values, resolution, value)));
 }
 
-Entry ValueBuiltins::require_pair(ValueId value, std::string_view function) const {
+MapEntry ValueBuiltins::require_pair(ValueId value, std::string_view function) const {
   if (values.kind(value) == ValueKind::tuple && values.items(value).size() == 2) {
     return {values.items(value)[0], values.items(value)[1]};
   }
   fail(codes::wrong_type, fmt::format("`{}` needs pairs, but this is `{}`", function,
                                       brief(values, resolution, value)));
-}
-
-std::vector<Entry> ValueBuiltins::map_entries(ValueId map) const {
-  std::vector<Entry> entries;
-  const auto items = values.items(map);
-  for (std::size_t i = 0; i < items.size(); i += 2) entries.emplace_back(items[i], items[i + 1]);
-  return entries;
-}
-
-std::optional<ValueId> ValueBuiltins::map_find(ValueId map, ValueId key) const {
-  const auto items = values.items(map);
-  for (std::size_t i = 0; i < items.size(); i += 2) {
-    if (items[i] == key) return items[i + 1];
-  }
-  return std::nullopt;
 }
 
 ValueId ValueBuiltins::all_events() const {
@@ -118,7 +97,7 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
     case Builtin::false_constant:
       return values.make_bool(false);
     case Builtin::empty_map:
-      return values.make_map({});
+      return values.empty_map();
 
     case Builtin::set_union:
       return set_union(values, set(0), set(1));
@@ -159,46 +138,43 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
       return values.make_seq(elements_of(values, set(0), "make a sequence of"));
 
     case Builtin::map_from_list: {
-      std::vector<Entry> entries;
+      std::vector<MapEntry> entries;
       for (ValueId s = seq(0); values.kind(s) == ValueKind::cons; s = values.tail(s)) {
         entries.push_back(require_pair(values.head(s), name));
       }
-      return values.make_map(std::move(entries));
+      return make_map(values, entries);
     }
     case Builtin::map_lookup:
-      if (const std::optional<ValueId> found = map_find(map(0), arguments[1])) return *found;
+      if (const std::optional<ValueId> found = map_find(values, map(0), arguments[1]))
+        return *found;
       fail(codes::key_not_found,
            fmt::format("the map has no key `{}`", brief(values, resolution, arguments[1])));
     case Builtin::map_member:
-      return values.make_bool(map_find(map(0), arguments[1]).has_value());
+      return values.make_bool(map_find(values, map(0), arguments[1]).has_value());
     case Builtin::map_to_list: {
       std::vector<ValueId> pairs;
-      for (const auto& [key, value] : map_entries(map(0))) {
+      for (const auto& [key, value] : map_entries(values, map(0))) {
         const ValueId pair[] = {key, value};
         pairs.push_back(values.make_tuple(pair));
       }
       return values.make_seq(pairs);
     }
-    case Builtin::map_update: {
-      std::vector<Entry> entries = map_entries(map(0));
-      entries.emplace_back(arguments[1], arguments[2]);
-      return values.make_map(std::move(entries));
-    }
+    case Builtin::map_update:
+      return map_insert(values, map(0), {arguments[1], arguments[2]});
     case Builtin::map_update_many: {
       // Of equal keys the first wins, as in FDR's evaluator (docs/decisions/0004).
-      std::vector<Entry> updates;
+      std::vector<MapEntry> updates;
       for (ValueId s = seq(1); values.kind(s) == ValueKind::cons; s = values.tail(s)) {
         updates.push_back(require_pair(values.head(s), name));
       }
-      std::vector<Entry> entries = map_entries(map(0));
-      entries.insert(entries.end(), updates.rbegin(), updates.rend());
-      return values.make_map(std::move(entries));
+      ValueId updated = map(0);
+      for (auto update = updates.rbegin(); update != updates.rend(); ++update) {
+        updated = map_insert(values, updated, *update);
+      }
+      return updated;
     }
-    case Builtin::map_delete: {
-      std::vector<Entry> entries = map_entries(map(0));
-      std::erase_if(entries, [&](const Entry& e) { return e.first == arguments[1]; });
-      return values.make_map(std::move(entries));
-    }
+    case Builtin::map_delete:
+      return map_erase(values, map(0), arguments[1]);
     case Builtin::all_maps:
       return all_maps(values, set(0), set(1));
 

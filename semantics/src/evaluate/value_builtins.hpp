@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "../maps.hpp"
 #include "data_model.hpp"
 #include "perentie/semantics/show.hpp"
 
@@ -21,9 +22,7 @@ struct ValueBuiltins {
   ValueId require_set(ValueId value, std::string_view function) const;
   ValueId require_seq(ValueId value, std::string_view function) const;
   ValueId require_map(ValueId value, std::string_view function) const;
-  std::pair<ValueId, ValueId> require_pair(ValueId value, std::string_view function) const;
-  std::vector<std::pair<ValueId, ValueId>> map_entries(ValueId map) const;
-  std::optional<ValueId> map_find(ValueId map, ValueId key) const;
+  MapEntry require_pair(ValueId value, std::string_view function) const;
   ValueId all_events() const;
   ValueId symmetric_closure(ValueId relation, ValueId elements) const;
 };

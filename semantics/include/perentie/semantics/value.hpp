@@ -43,7 +43,7 @@ enum class ValueKind : std::uint8_t {
   from_set,     ///< {n}: all integers from n
   seq_set,      ///< {s}: all finite sequences over a set
   data_set,     ///< {symbol}: all values of a datatype with infinitely many
-  map,          ///< {k1, v1, ..} in ascending order of keys
+  map,          ///< {} or {key, value, map of smaller keys, map of greater keys}
   process,      ///< {process}
   function,     ///< {function, group, scope}: see evaluate's code.hpp
   builtin,      ///< {builtin}
@@ -54,7 +54,7 @@ class ValueStore {
  public:
   ValueStore();
 
-  // Constructors. `make_set` sorts and removes duplicates; `make_map` keeps the last of equal keys.
+  // Constructors. `make_set` sorts and removes duplicates.
   ValueId make_int(std::int64_t value);
   ValueId make_bool(bool value) const { return value ? true_ : false_; }
   ValueId make_char(unsigned char value);
@@ -72,7 +72,9 @@ class ValueStore {
   ValueId make_from_set(std::int64_t first);
   ValueId make_seq_set(ValueId elements);
   ValueId make_data_set(SymbolId datatype);
-  ValueId make_map(std::vector<std::pair<ValueId, ValueId>> entries);
+  ValueId empty_map() const { return empty_map_; }
+  /// For `make_map` and the other operations of src/maps.hpp.
+  ValueId make_map_node(ValueId key, ValueId value, ValueId smaller, ValueId greater);
   ValueId make_process(ProcId process);
   ValueId make_function(std::uint32_t function, std::uint32_t group, std::uint32_t scope);
   ValueId make_builtin(Builtin builtin);
@@ -92,7 +94,7 @@ class ValueStore {
   ValueId head(ValueId cons) const { return {word(cons, 0)}; }
   ValueId tail(ValueId cons) const { return {word(cons, 1)}; }
   std::uint32_t length(ValueId seq) const;
-  /// The components of a dot, items of a tuple, elements of a set, entries of a map (k1, v1, k2, ..).
+  /// The components of a dot, items of a tuple, elements of a set.
   std::span<const ValueId> items(ValueId value) const;
   std::uint32_t word(ValueId value, std::size_t index) const {
     return terms_.words(value.bits)[index];
@@ -124,7 +126,7 @@ class ValueStore {
   ValueId intern(ValueKind kind, std::span<const ValueId> items);
 
   base::TermTable terms_;
-  ValueId false_, true_, empty_seq_, empty_set_, int_set_, ignored_;
+  ValueId false_, true_, empty_seq_, empty_set_, empty_map_, int_set_, ignored_;
 };
 
 /// The partial order of `<=` (3.2.4): sequences by prefix, sets by inclusion, maps entry by entry,
