@@ -12,7 +12,15 @@
 
 namespace perentie::semantics {
 
-void Machine::step(Instruction in) {
+// The hot loop: `step` is inlined here.
+void Machine::run_instructions() {
+  while (running_) {
+    if (fuel_-- == 0) safepoint();
+    step(program_.code[pc_++]);
+  }
+}
+
+[[gnu::always_inline]] inline void Machine::step(Instruction in) {
   const Address at = pc_ - 1;
   switch (in.op) {
     case Op::push_value:

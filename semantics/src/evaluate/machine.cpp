@@ -93,10 +93,7 @@ bool Machine::execute() {
   running_ = true;
   while (running_) {
     try {
-      while (running_) {
-        if (fuel_-- == 0) safepoint();
-        step(program_.code[pc_++]);
-      }
+      run_instructions();
     } catch (const NeedFields& need) {
       if (!need_fields(need.symbol, pc_ - 1)) {
         unwind();

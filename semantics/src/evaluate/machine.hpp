@@ -92,6 +92,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
   };
   std::optional<ValueId> run_in(Address entry, Word frame, base::Diagnostics& diagnostics);
   bool execute();  // until the run ends; false: it failed
+  void run_instructions();
   void step(Instruction instruction);
   void return_value();  // the value on top goes to the innermost control entry
   void safepoint();
