@@ -1,17 +1,14 @@
 // Our own corpus of scripts: what parses and what does not, with golden dumps beside the files.
-//
-// A comment `-- expect: P001 ..` in a failing script says which codes its line is to be reported
-// with; alone on its line, it speaks of the next one.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <map>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include "parse_support.hpp"
 #include "perentie/parser/diagnostic_codes.hpp"
+#include "perentie/test/corpus.hpp"
 #include "perentie/test/golden.hpp"
 #include "perentie/test/paths.hpp"
 
@@ -58,27 +55,11 @@ INSTANTIATE_TEST_SUITE_P(Corpus, PassingScript,
                          ::testing::ValuesIn(scripts_in(test::corpus() / "parser/pass")),
                          test_name);
 
-/// Code sets by line: what the comments of the text ask for.
-std::map<std::size_t, std::set<std::string>> expected_codes(const std::string& text) {
-  std::map<std::size_t, std::set<std::string>> expected;
-  std::istringstream lines(text);
-  std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    const std::size_t at = line.find("expect: ");
-    if (at == std::string::npos) continue;
-    const bool alone = line.find_first_not_of(' ') == line.find("-- expect");
-    std::istringstream codes(line.substr(at + 8));
-    for (std::string code; codes >> code;) expected[number + (alone ? 1 : 0)].insert(code);
-  }
-  return expected;
-}
-
 class FailingScript : public ::testing::TestWithParam<fs::path> {};
 
 TEST_P(FailingScript, IsReportedWhereItSaysSo) {
   const Parsed parsed = parse_file(GetParam());
-  std::map<base::FileId, std::map<std::size_t, std::set<std::string>>> reported;
+  std::map<base::FileId, test::CodesByLine> reported;
   for (const base::Diagnostic& d : parsed.diagnostics.all()) {
     const base::Position at = parsed.sources.position(d.span->begin);
     reported[parsed.sources.file_of(d.span->begin)][at.line].insert(std::string(d.code->id));
@@ -86,7 +67,7 @@ TEST_P(FailingScript, IsReportedWhereItSaysSo) {
   EXPECT_FALSE(reported.empty());
   for (std::uint32_t i = 0; i < parsed.sources.file_count(); ++i) {
     const base::FileId file{i};
-    EXPECT_EQ(reported[file], expected_codes(std::string(parsed.sources.text(file))))
+    EXPECT_EQ(reported[file], test::expected_codes(std::string(parsed.sources.text(file))))
         << parsed.messages();
   }
 }

@@ -1,7 +1,6 @@
 // Texts parsed for tests: the tree with its sources and diagnostics, and short ways to look at them.
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "perentie/parser/lexer.hpp"
 #include "perentie/parser/parse.hpp"
 #include "perentie/parser/print.hpp"
+#include "perentie/test/corpus.hpp"
 
 namespace perentie::parser {
 
@@ -92,14 +92,6 @@ inline ParsedExpression parse_expression_text(std::string text, const ParseOptio
   return parsed;
 }
 
-/// All `.csp` files of a folder, sorted; not those of its subfolders.
-inline std::vector<std::filesystem::path> scripts_in(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".csp") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
+using test::scripts_in;
 
 }  // namespace perentie::parser

@@ -152,14 +152,14 @@ std::string codes_of_process(const std::string& process, const std::string& defi
 }
 
 std::string value_of(const std::string& expression, const std::string& definitions) {
-  TestScript script(with_channels(definitions));
+  TestScript script(definitions);
   if (!script.loaded()) return script.messages();
   const auto value = script.evaluate(expression);
   return value ? *value : script.messages();
 }
 
 std::string codes_of_value(const std::string& expression, const std::string& definitions) {
-  TestScript script(with_channels(definitions));
+  TestScript script(definitions);
   if (script.loaded()) script.evaluate(expression);
   return script.codes();
 }

@@ -56,7 +56,7 @@ bool isomorphic(const lts::Lts& left, const lts::Lts& right);
                                     const std::string& definitions = "");
 /// The codes with which a process of such a script is refused; empty if it is not.
 std::string codes_of_process(const std::string& process, const std::string& definitions = "");
-/// The value of an expression in such a script, or its messages.
+/// The value of an expression in a script of these definitions alone, or its messages.
 std::string value_of(const std::string& expression, const std::string& definitions = "");
 /// The codes with which an expression of such a script is refused; empty if it is not.
 std::string codes_of_value(const std::string& expression, const std::string& definitions = "");
