@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "parse_support.hpp"
+#include "perentie/parser/copy.hpp"
 #include "perentie/parser/operators.hpp"
+#include "perentie/parser/print.hpp"
 #include "perentie/test/paths.hpp"
 #include "random_tree.hpp"
 
@@ -42,6 +44,32 @@ RC_GTEST_PROP(PrintPropertyTest, WhatIsPrintedParsesBack, ()) {
   const auto width = *rc::gen::element<std::size_t>(0, 20, 60, 100);
   const std::string broken = broken_by_printing(tree, width);
   if (!broken.empty()) RC_FAIL(broken);
+}
+
+// Makes all nodes below the given sizes trivial.
+void erase_nodes(SyntaxTree& tree, const SyntaxTree& sizes) {
+  const auto erase = [](auto& store, std::size_t count, const auto& node) {
+    for (std::uint32_t i = 0; i < count; ++i) store[{i}].node = node;
+  };
+  erase(tree.exprs, sizes.exprs.size(), WildcardExpr{});
+  erase(tree.patterns, sizes.patterns.size(), WildcardPattern{});
+  erase(tree.statements, sizes.statements.size(), Filter{});
+  erase(tree.types, sizes.types.size(), NamedType{});
+  erase(tree.decls, sizes.decls.size(), PrintDecl{});
+  for (std::uint32_t i = 0; i < sizes.fields.size(); ++i) tree.fields[FieldId{i}] = Field{};
+}
+
+RC_GTEST_PROP(CopyPropertyTest, ACopyIsTheSameAndSharesNoNode, ()) {
+  SyntaxTree tree = random_script(*choices(400));
+  const SyntaxTree original = tree;
+  std::vector<std::string> printed;
+  std::vector<DeclId> copies;
+  for (const DeclId id : original.list(original.declarations)) {
+    printed.push_back(print(original, id));
+    copies.push_back(copy_declaration(tree, id));
+  }
+  erase_nodes(tree, original);
+  for (std::size_t i = 0; i < copies.size(); ++i) RC_ASSERT(print(tree, copies[i]) == printed[i]);
 }
 
 // The generator reaches every kind of expression, pattern and declaration.
