@@ -37,7 +37,8 @@ test-arm64:  ## cross-build for aarch64 and run the same tests under qemu
 	@$(packages) program test arm64
 	@cmake/arm64_sysroot.sh build/arm64-sysroot
 	@$(call build,arm64)
-	@cmake/run_tests.sh build/arm64 $(jobs)
+	@cmake/run_tests.sh build/arm64 $(jobs) --exclude-regex DeathTest
+	@echo "Left out: death tests. Under qemu-user 7.2 a forked child that aborts never ends."
 
 .PHONY: asan tsan
 asan tsan:  ## all tests with the address and undefined-behaviour, or the thread sanitizer

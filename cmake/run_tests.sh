@@ -1,11 +1,15 @@
 #!/bin/sh
-# Runs the tests of a build folder and says at the end how many were skipped, and why.
+# Runs the tests of a build folder and says at the end how many were skipped, and why. Further
+# arguments go to ctest.
 #
-#   cmake/run_tests.sh build/test 8
+#   cmake/run_tests.sh build/test 8 --label-regex cli
 set -u
 
-results=$PWD/$1/results.xml
-ctest --test-dir "$1" -j "$2" --output-on-failure --progress --output-junit "$results"
+folder=$1
+jobs=$2
+shift 2
+results=$PWD/$folder/results.xml
+ctest --test-dir "$folder" -j "$jobs" --output-on-failure --output-junit "$results" "$@"
 code=$?
 
 # A skipped GoogleTest prints `file:line: Skipped`, and on the next line the reason.
