@@ -38,7 +38,7 @@ test-arm64:  ## cross-build for aarch64 and run the same tests under qemu
 	@cmake/arm64_sysroot.sh build/arm64-sysroot
 	@$(call build,arm64)
 	@cmake/run_tests.sh build/arm64 $(jobs) --exclude-regex DeathTest
-	@echo "Left out: death tests. Under qemu-user 7.2 a forked child that aborts never ends."
+	@echo "Left out: death tests. They fork, and under qemu-user 7.2 a forked child never ends."
 
 .PHONY: asan tsan
 asan tsan:  ## all tests with the address and undefined-behaviour, or the thread sanitizer

@@ -1,10 +1,12 @@
 #include "run_perentie.hpp"
 
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -17,26 +19,46 @@
 namespace perentie::test {
 namespace {
 
-void redirect(int descriptor, const std::string& file, int flags) {
-  const int opened = open(file.c_str(), flags, 0600);
-  if (opened < 0 || dup2(opened, descriptor) < 0) _exit(126);
-  close(opened);
+// The variables of the test with those of `around` before them: the first of a name counts.
+std::vector<std::string> environment_of(const Surroundings& around) {
+  std::vector<std::string> variables;
+  for (const auto& [name, value] : around.variables) variables.push_back(name + "=" + value);
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string text = *variable;
+    const bool is_set =
+        std::any_of(around.variables.begin(), around.variables.end(), [&](const auto& set) {
+          return text.compare(0, set.first.size() + 1, set.first + "=") == 0;
+        });
+    if (!is_set) variables.push_back(text);
+  }
+  return variables;
 }
 
-pid_t start(const std::vector<std::string>& command, const Surroundings& around,
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+// posix_spawn and not fork: under qemu-user 7.2 a forked child never ends.
+pid_t start(std::vector<std::string> command, const Surroundings& around,
             const std::filesystem::path& streams, const std::string& output_file) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  redirect(STDIN_FILENO, streams / "in", O_RDONLY);
-  redirect(STDOUT_FILENO, output_file, O_WRONLY | O_CREAT | O_TRUNC);
-  redirect(STDERR_FILENO, streams / "err", O_WRONLY | O_CREAT | O_TRUNC);
-  if (chdir(around.folder.c_str()) != 0) _exit(126);
-  for (const auto& [name, value] : around.variables) setenv(name.c_str(), value.c_str(), 1);
-  std::vector<char*> words;
-  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
-  words.push_back(nullptr);
-  execvp(words[0], words.data());
-  _exit(127);
+  constexpr int written = O_WRONLY | O_CREAT | O_TRUNC;
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, (streams / "in").c_str(), O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output_file.c_str(), written, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, (streams / "err").c_str(), written,
+                                   0600);
+  posix_spawn_file_actions_addchdir_np(&actions, around.folder.c_str());
+  std::vector<std::string> variables = environment_of(around);
+  pid_t child = -1;
+  const int error = posix_spawnp(&child, command[0].c_str(), &actions, nullptr,
+                                 pointers_to(command).data(), pointers_to(variables).data());
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw std::runtime_error("cannot run " + command[0]);
+  return child;
 }
 
 template <typename WhileItRuns>
@@ -47,7 +69,6 @@ Outcome run_with(const std::vector<std::string>& command, const Surroundings& ar
   const std::string output =
       around.output_file.empty() ? (streams.path() / "out").string() : around.output_file;
   const pid_t child = start(command, around, streams.path(), output);
-  if (child < 0) throw std::runtime_error("fork failed");
   while_it_runs(child);
   int status = 0;
   if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
