@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "canonical_form.hpp"
 #include "perentie/test/lts_oracles.hpp"
 #include "script_support.hpp"
 
@@ -164,6 +165,68 @@ RC_GTEST_PROP(SemanticsPropertyTest, OperationalTracesAreTheDenotedOnes, ()) {
   }
   RC_LOG() << process.text;
   RC_ASSERT(operational_traces(*lts, depth) == denoted);
+}
+
+// --- Laws ---------------------------------------------------------------------------------------
+
+// P, Q and R stand for random processes.
+struct Law {
+  const char* left;
+  const char* right;
+};
+
+RC_GTEST_PROP(SemanticsPropertyTest, LawsHoldInFailuresAndDivergences, ()) {
+  static const std::vector<Law> laws{
+      {"P [] Q", "Q [] P"},
+      {"P [] P", "P"},
+      {"P [] (Q [] R)", "(P [] Q) [] R"},
+      {"P [] STOP", "P"},
+      {"P |~| Q", "Q |~| P"},
+      {"P |~| P", "P"},
+      {"P |~| (Q |~| R)", "(P |~| Q) |~| R"},
+      {"P [] (Q |~| R)", "(P [] Q) |~| (P [] R)"},
+      {"P |~| (Q [] R)", "(P |~| Q) [] (P |~| R)"},
+      {"P ||| Q", "Q ||| P"},
+      {"P ||| (Q ||| R)", "(P ||| Q) ||| R"},
+      {"P ||| SKIP", "P"},
+      {"P [|{a}|] Q", "Q [|{a}|] P"},
+      {"P [|{a}|] (Q |~| R)", "(P [|{a}|] Q) |~| (P [|{a}|] R)"},
+      {"P [|{}|] Q", "P ||| Q"},
+      {"(P ; Q) ; R", "P ; (Q ; R)"},
+      {"SKIP ; P", "P"},
+      {"STOP ; P", "STOP"},
+      {"(P |~| Q) ; R", "(P ; R) |~| (Q ; R)"},
+      {"(P \\ {a}) \\ {b}", "P \\ {a, b}"},
+      {"(P |~| Q) \\ {a}", "(P \\ {a}) |~| (Q \\ {a})"},
+      {"(a -> P) \\ {a}", "P \\ {a}"},
+      {"P [> Q", "(P |~| STOP) [] Q"},
+      {"P |\\ {a}", "P \\ {b, c}"},
+      {"P [[a <- b]]", "P [[a <- b, c <- c]]"},
+      {"P /\\ STOP", "P"},
+      {"P [|{}|> Q", "P"},
+  };
+  const Law law = laws[*rc::gen::inRange<std::size_t>(0, laws.size())];
+  TestScript script("channel a, b, c\nP = " + random_process(3).text +
+                    "\nQ = " + random_process(2).text + "\nR = " + random_process(2).text);
+  const auto left = script.explore(law.left);
+  const auto right = script.explore(law.right);
+  RC_LOG() << law.left << " = " << law.right;
+  RC_ASSERT(left.has_value() && right.has_value());
+  RC_ASSERT(failure_form(*left) == failure_form(*right));
+  RC_ASSERT(trace_form(*left) == trace_form(*right));
+}
+
+// Each pair has the same traces but other failures, or other traces.
+TEST(SemanticsPropertyTest, WhatAreNoLaws) {
+  TestScript script("channel a, b, c");
+  const auto form = [&](const char* process) { return failure_form(*script.explore(process)); };
+  EXPECT_NE(form("a -> STOP [] b -> STOP"), form("a -> STOP |~| b -> STOP"));
+  EXPECT_NE(form("a -> (b -> STOP |~| c -> STOP)"), form("a -> STOP [] a -> (b -> STOP |~| STOP)"));
+  EXPECT_NE(form("((a -> STOP) [] SKIP) ; SKIP"), form("(a -> STOP) [] SKIP"));
+  EXPECT_NE(form("a -> STOP ||| a -> STOP"), form("a -> STOP"));
+  EXPECT_NE(form("(a -> STOP [] b -> STOP) \\ {a}"), form("STOP [] b -> STOP"));
+  EXPECT_NE(form("SKIP [] a -> STOP"), form("SKIP [> a -> STOP"));
+  EXPECT_NE(form("STOP ; DIV"), form("DIV"));
 }
 
 // --- Sequences and sets -------------------------------------------------------------------------
