@@ -42,9 +42,9 @@ std::size_t columns(std::string_view text) {
 std::string source_excerpt(Span span, const SourceMap& sources, const Style& style) {
   const std::string_view line = sources.line_at(span.begin);
   const Span file = sources.span(sources.file_of(span.begin));
-  const auto line_begin =
-      static_cast<std::size_t>(line.data() - sources.text(file).data());
-  const std::size_t start = std::min<std::size_t>(span.begin - file.begin - line_begin, line.size());
+  const auto line_begin = static_cast<std::size_t>(line.data() - sources.text(file).data());
+  const std::size_t start =
+      std::min<std::size_t>(span.begin - file.begin - line_begin, line.size());
   const std::size_t end =
       std::clamp<std::size_t>(span.end - file.begin - line_begin, start, line.size());
 
@@ -88,10 +88,10 @@ Diagnostic& Diagnostics::keep(Diagnostic diagnostic) {
 std::string render(const Diagnostic& diagnostic, const SourceMap& sources, bool colour) {
   const Style style = style_for(colour);
   const bool is_error = diagnostic.code->severity == Severity::error;
-  std::string text = fmt::format(
-      "{}{}{}{}{}:{} {}{}{} [{}]\n", style.bold, place(diagnostic.span, sources), style.off,
-      is_error ? style.error : style.warning, is_error ? "error" : "warning", style.off, style.bold,
-      diagnostic.message, style.off, diagnostic.code->id);
+  std::string text =
+      fmt::format("{}{}{}{}{}:{} {}{}{} [{}]\n", style.bold, place(diagnostic.span, sources),
+                  style.off, is_error ? style.error : style.warning, is_error ? "error" : "warning",
+                  style.off, style.bold, diagnostic.message, style.off, diagnostic.code->id);
   if (diagnostic.span) text += source_excerpt(*diagnostic.span, sources, style);
   for (const Note& note : diagnostic.notes) {
     text += fmt::format("{}{}{}{}note:{} {}\n", style.bold, place(note.span, sources), style.off,
@@ -103,7 +103,8 @@ std::string render(const Diagnostic& diagnostic, const SourceMap& sources, bool 
 
 std::string render_all(const Diagnostics& diagnostics, const SourceMap& sources, bool colour) {
   std::string text;
-  for (const Diagnostic& diagnostic : diagnostics.all()) text += render(diagnostic, sources, colour);
+  for (const Diagnostic& diagnostic : diagnostics.all())
+    text += render(diagnostic, sources, colour);
   if (diagnostics.error_count() > Diagnostics::max_kept_errors) {
     text += fmt::format("perentie: {} more errors are not shown\n",
                         diagnostics.error_count() - Diagnostics::max_kept_errors);

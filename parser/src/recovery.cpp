@@ -31,7 +31,8 @@ bool same_line(const Token& a, const Token& b, const base::SourceMap& sources) {
          sources.text({a.span.end, b.span.begin}).find('\n') == std::string_view::npos;
 }
 
-/// Whether the line of text that begins at `t` has a `=` or `::`, and no `let` or `within` before it.
+/// Whether the line of text that begins at `t` has a `=` or `::`, and no `let` or `within` before
+/// it.
 bool looks_like_definition(const Token* t, const base::SourceMap& sources) {
   for (const Token* begin = t; t == begin || same_line(*(t - 1), *t, sources); ++t) {
     if (t->kind == K::define || t->kind == K::annotate) return true;
@@ -73,8 +74,7 @@ const Token* recover(const Token* first, const Token* where, bool in_timed_secti
   return where;
 }
 
-const Token* first_of_line(const Token* first, const Token* where,
-                           const base::SourceMap& sources) {
+const Token* first_of_line(const Token* first, const Token* where, const base::SourceMap& sources) {
   const Token* t = where;
   while (t > first && same_line(*(t - 1), *t, sources)) --t;
   return t;

@@ -8,8 +8,8 @@ namespace perentie::parser {
 
 /// Where the next declaration probably begins: at the first line, that of `where` included, which
 /// starts like one and stands no further right than the failed declaration, which began at `first`,
-/// or is outside its `let`s. Also at the `}` that closes the timed section around it, if it stands in
-/// one; otherwise at the end of the text.
+/// or is outside its `let`s. Also at the `}` that closes the timed section around it, if it stands
+/// in one; otherwise at the end of the text.
 const Token* recover(const Token* first, const Token* where, bool in_timed_section,
                      const base::SourceMap& sources);
 

@@ -237,7 +237,10 @@ std::optional<const Token*> attempt(Builder& builder, const Token* first,
 void report_syntax_error(const SyntaxError& error, const Token* first, bool in_let,
                          BuildContext& context) {
   const Token* where = error.where;
-  const Scene scene{error, first, where, where > first ? where - 1 : nullptr,
+  const Scene scene{error,
+                    first,
+                    where,
+                    where > first ? where - 1 : nullptr,
                     where > first + 1 ? where - 2 : nullptr,
                     first_of_line(first, where, context.sources)};
   if (scene.found(K::error) || scene.after(K::error)) return;
@@ -279,8 +282,7 @@ void report_syntax_error(const SyntaxError& error, const Token* first, bool in_l
                         is_closing(where->kind) || is_keyword(where->kind) ||
                         scene.found(K::define);
   if (open != nullptr && runs_out && open != scene.previous) {
-    diagnostic.notes.push_back(
-        {open->span, fmt::format("{} is still open", describe(open->kind))});
+    diagnostic.notes.push_back({open->span, fmt::format("{} is still open", describe(open->kind))});
   } else if (scene.line != first && info((scene.line - 1)->kind).soaks_after &&
              (where == scene.line || scene.found(K::define) || scene.found(K::annotate))) {
     const Token& last = *(scene.line - 1);

@@ -9,9 +9,9 @@
 
 namespace perentie::semantics {
 
-/// `name = body` for each named call that the process leads to, what is used before what uses it, with
-/// empty lines in between; at the end the process itself. Nothing if `unfold` fails, which gives the
-/// body of a call.
+/// `name = body` for each named call that the process leads to, what is used before what uses it,
+/// with empty lines in between; at the end the process itself. Nothing if `unfold` fails, which
+/// gives the body of a call.
 std::optional<std::string> show_definitions(
     const ShowContext& context, ProcId process,
     const std::function<std::optional<ProcId>(ProcId call)>& unfold);

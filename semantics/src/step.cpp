@@ -12,7 +12,7 @@ namespace perentie::semantics {
 namespace {
 
 // Operators in operators: a bound on recursion over the structure of a term.
-constexpr std::uint32_t max_depth = 4'000;
+constexpr std::uint32_t max_depth = 1'500;
 // More τ in a row are taken for divergence, which `chase` cannot follow.
 constexpr std::size_t max_chased = 1'000'000;
 

@@ -1,4 +1,5 @@
-// Texts parsed for tests: the tree with its sources and diagnostics, and short ways to look at them.
+// Texts parsed for tests: the tree with its sources and diagnostics, and short ways to look at
+// them.
 #pragma once
 
 #include <filesystem>

@@ -40,8 +40,8 @@ class DataModel {
     ValueId value;
     ValueId component;
   };
-  /// The values that the next field can take; with `all_remaining`, all missing fields together as one
-  /// dotted value (4.3.5). In the order of sets. The result lives as long as the model.
+  /// The values that the next field can take; with `all_remaining`, all missing fields together as
+  /// one dotted value (4.3.5). In the order of sets. The result lives as long as the model.
   const std::vector<Extension>& extensions(ValueId partial, bool all_remaining) const;
   /// All complete values that begin with `partial` (3.6.5).
   std::vector<ValueId> productions(ValueId partial) const;

@@ -16,7 +16,8 @@ struct EvaluationFailure {
   std::string message;
 };
 
-/// The declared fields of a channel or constructor are needed first; then the instruction is repeated.
+/// The declared fields of a channel or constructor are needed first; then the instruction is
+/// repeated.
 struct NeedFields {
   SymbolId symbol;
 };

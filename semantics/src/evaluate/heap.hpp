@@ -3,7 +3,8 @@
 // A `Word` is a small integer, a `ValueId`, a reference to a heap object, or nothing. Objects are
 // thunks, frames, sequence cells, tuples and closures. The machine collects only between two
 // instructions, when every live word is in one of its registers, stacks or tables; instructions
-// themselves may therefore hold words freely (Cheney, "A nonrecursive list compacting algorithm", 1970).
+// themselves may therefore hold words freely (Cheney, "A nonrecursive list compacting algorithm",
+// 1970).
 #pragma once
 
 #include <cstddef>
@@ -17,14 +18,14 @@
 namespace perentie::semantics {
 
 enum class ObjectKind : std::uint8_t {
-  thunk,      ///< aux: code address; {frame}
-  blackhole,  ///< a thunk under evaluation
+  thunk,        ///< aux: code address; {frame}
+  blackhole,    ///< a thunk under evaluation
   indirection,  ///< an evaluated thunk: {value}
-  frame,      ///< aux: scope; {parent, canonical scope, slots..}
-  cell,       ///< a sequence: {head, tail}
-  tuple,      ///< aux: number of items; {items..}
-  closure,    ///< aux: function; {frame, group}
-  forwarded,  ///< during a collection: {new place}
+  frame,        ///< aux: scope; {parent, canonical scope, slots..}
+  cell,         ///< a sequence: {head, tail}
+  tuple,        ///< aux: number of items; {items..}
+  closure,      ///< aux: function; {frame, group}
+  forwarded,    ///< during a collection: {new place}
 };
 
 struct Object;
@@ -86,8 +87,8 @@ class Heap {
   bool wants_collection() const { return allocated_ >= threshold_; }
   std::size_t bytes() const { return allocated_; }
 
-  /// Copies what the roots reach and frees the rest. `visit_roots(move)` calls `move(Word&)` on every
-  /// word that the machine holds.
+  /// Copies what the roots reach and frees the rest. `visit_roots(move)` calls `move(Word&)` on
+  /// every word that the machine holds.
   template <class VisitRoots>
   void collect(VisitRoots visit_roots) {
     std::vector<Chunk> old = begin_collection();

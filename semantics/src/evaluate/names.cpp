@@ -55,7 +55,7 @@ std::string Machine::scope_prefix(std::uint32_t scope, SymbolId innermost) const
     pass_constants(function);
     // The argument groups of one call follow each other.
     while (scope != 0 && info_of(scope).function == info.function) {
-      values = frame_values(scope) + ")(" + values;
+      values = fmt::format("{})({}", frame_values(scope), values);
       scope = scopes_.words(scope)[1];
     }
     prefix = fmt::format("{}({})::", resolution_.symbols[function].qualified, values) + prefix;

@@ -31,8 +31,8 @@ ValueId tuple_product(ValueStore& values, std::span<const ValueId> sets);
 /// All partial maps (3.7).
 ValueId all_maps(ValueStore& values, ValueId keys, ValueId results);
 
-/// Membership in any set, infinite ones included. `data_set` membership is by datatype of the value's
-/// constructor, whose fields were checked when the value was built.
+/// Membership in any set, infinite ones included. `data_set` membership is by datatype of the
+/// value's constructor, whose fields were checked when the value was built.
 bool set_contains(const ValueStore& values, const Resolution& resolution, ValueId set,
                   ValueId element);
 

@@ -13,9 +13,9 @@ namespace perentie::base {
 
 // A macro because the condition's text and place are part of the message (clang 14 lacks
 // std::source_location).
-#define PERENTIE_CHECK(condition, message)                                            \
-  do {                                                                                \
-    if (!(condition)) {                                                               \
-      ::perentie::base::check_failed(__FILE__, __LINE__, #condition, message);        \
-    }                                                                                 \
+#define PERENTIE_CHECK(condition, message)                                     \
+  do {                                                                         \
+    if (!(condition)) {                                                        \
+      ::perentie::base::check_failed(__FILE__, __LINE__, #condition, message); \
+    }                                                                          \
   } while (false)

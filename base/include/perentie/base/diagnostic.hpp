@@ -1,9 +1,9 @@
 // Diagnostics: what we tell a user about their input.
 //
-// Every step reports into a `Diagnostics` sink and never throws across a library boundary. A message
-// is one sentence without final period that names the offending thing in `backquotes`; notes say
-// where something was defined or what was probably meant. Each library lists its codes once, in its
-// diagnostic_codes.def.
+// Every step reports into a `Diagnostics` sink and never throws across a library boundary. A
+// message is one sentence without final period that names the offending thing in `backquotes`;
+// notes say where something was defined or what was probably meant. Each library lists its codes
+// once, in its diagnostic_codes.def.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ enum class Severity : std::uint8_t { error, warning };
 /// One kind of diagnostic. Codes are never reused: L lexing, P parsing, N names, E evaluation, M
 /// monitor, I input and output.
 struct DiagnosticCode {
-  std::string_view id;     ///< such as "P003"
+  std::string_view id;  ///< such as "P003"
   Severity severity;
   std::string_view title;  ///< what the kind is about, for the list of codes
 };
@@ -60,8 +60,8 @@ class Diagnostics {
   Diagnostic overflow_{};
 };
 
-/// The clang layout: `file:line:col: error: message [code]`, the source line, a caret under the span,
-/// then the notes.
+/// The clang layout: `file:line:col: error: message [code]`, the source line, a caret under the
+/// span, then the notes.
 std::string render(const Diagnostic& diagnostic, const SourceMap& sources, bool colour = false);
 /// All kept diagnostics in order of report, with a closing line if some were dropped.
 std::string render_all(const Diagnostics& diagnostics, const SourceMap& sources,

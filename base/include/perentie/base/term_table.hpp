@@ -52,7 +52,8 @@ class TermTable {
 
   bool is(std::uint32_t term, std::uint8_t tag, std::span<const std::uint32_t> words) const {
     const std::span<const std::uint32_t> own = this->words(term);
-    return heads_[term].tag == tag && std::equal(own.begin(), own.end(), words.begin(), words.end());
+    return heads_[term].tag == tag &&
+           std::equal(own.begin(), own.end(), words.begin(), words.end());
   }
 
   void append(std::uint8_t tag, std::span<const std::uint32_t> words) {

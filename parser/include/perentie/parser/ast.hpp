@@ -1,9 +1,10 @@
 // The syntax tree of a CSPM script.
 //
 // Nodes live in the stores of a `SyntaxTree` and name each other by ids; child lists are runs in
-// shared pools. A node is a `Span` and one alternative of a variant. The tree is what the source says
-// and nothing more: parentheses are gone (the shape has them), includes are spliced in, consecutive
-// clauses of one function are one `FunctionDecl`. Numbers such as "2.3.1" are lines of the CSPM reference.
+// shared pools. A node is a `Span` and one alternative of a variant. The tree is what the source
+// says and nothing more: parentheses are gone (the shape has them), includes are spliced in,
+// consecutive clauses of one function are one `FunctionDecl`. Numbers such as "2.3.1" are lines of
+// the CSPM reference.
 #pragma once
 
 #include <cstdint>
@@ -115,8 +116,8 @@ enum class FieldKind : std::uint8_t { input, output, nondet_input };
 struct Field {
   Span span;
   FieldKind kind;
-  PatternId pattern;     ///< inputs
-  ExprId expression;     ///< outputs: the value; inputs: the restricting set, or none
+  PatternId pattern;  ///< inputs
+  ExprId expression;  ///< outputs: the value; inputs: the restricting set, or none
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -147,7 +148,8 @@ struct MapExpr {  ///< `(| k => v, .. |)`: keys and values in step
 /// What the brackets of a collection make: `{..}`, `<..>`, `{|..|}`.
 enum class Collection : std::uint8_t { set, sequence, productions };
 
-struct CollectionExpr {  ///< `{e1, .., en}`, `{e1, .., en | statements}` and likewise for the others
+struct CollectionExpr {  ///< `{e1, .., en}`, `{e1, .., en | statements}` and likewise for the
+                         ///< others
   Collection kind;
   ExprList items;
   StatementList statements;
@@ -248,8 +250,8 @@ struct ReplicatedLinkExpr {  ///< `[a <-> b, .. | statements] s @ P`
   ExprId body;
 };
 
-/// What only a pattern, a field or a generator may contain. The parser reads those as expressions and
-/// converts them; in a finished tree without errors no expression refers to one of these.
+/// What only a pattern, a field or a generator may contain. The parser reads those as expressions
+/// and converts them; in a finished tree without errors no expression refers to one of these.
 struct WildcardExpr {};
 struct CommunicationExpr {
   ExprId channel;
@@ -363,7 +365,8 @@ struct PatternDecl {  ///< `p = e`; a constant when the pattern is one name
   ExprId value;
 };
 
-/// One clause `f(p..)(q..) = e`: the groups follow each other in `parameters`, `group_sizes` cuts them.
+/// One clause `f(p..)(q..) = e`: the groups follow each other in `parameters`, `group_sizes` cuts
+/// them.
 struct Clause {
   Span span;
   ListRef<std::uint32_t> group_sizes;

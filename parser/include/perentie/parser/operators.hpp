@@ -32,11 +32,11 @@ inline constexpr auto infix_table = std::to_array<InfixInfo>({
 constexpr const InfixInfo& info(InfixOp op) { return infix_table[static_cast<std::size_t>(op)]; }
 
 /// Levels of what is not in the table: the printer compares them with the operators'.
-inline constexpr std::uint8_t level_postfix = 2;     ///< `f(..)`, `P[[..]]`, and every atom
-inline constexpr std::uint8_t level_length = 4;      ///< `#s`
-inline constexpr std::uint8_t level_negate = 6;      ///< `-x`
-inline constexpr std::uint8_t level_not = 8;         ///< `not b`
-inline constexpr std::uint8_t level_replicated = 23; ///< `[] x:S @ P`
-inline constexpr std::uint8_t level_open = 25;       ///< `let`, `if`, `\x @ e`
+inline constexpr std::uint8_t level_postfix = 2;      ///< `f(..)`, `P[[..]]`, and every atom
+inline constexpr std::uint8_t level_length = 4;       ///< `#s`
+inline constexpr std::uint8_t level_negate = 6;       ///< `-x`
+inline constexpr std::uint8_t level_not = 8;          ///< `not b`
+inline constexpr std::uint8_t level_replicated = 23;  ///< `[] x:S @ P`
+inline constexpr std::uint8_t level_open = 25;        ///< `let`, `if`, `\x @ e`
 
 }  // namespace perentie::parser

@@ -19,8 +19,8 @@ enum class BuiltinKind : std::uint8_t {
   process_constant,
   function,
   process_function,
-  opaque,       ///< a process function; its process can be named, but its transitions are not supported
-  prelude,      ///< defined in the prelude, in CSPM
+  opaque,   ///< a process function; its process can be named, but its transitions are not supported
+  prelude,  ///< defined in the prelude, in CSPM
   unsupported,  ///< known by name, not implemented yet
 };
 

@@ -1,8 +1,8 @@
 // Events and sets of events.
 //
-// An event is a complete channel value (`c.1.true`). The table numbers events in order of first use;
-// the numbers are the labels of the LTS, so 0 is τ and 1 is ✓. Event sets and relations between events
-// are hash-consed sorted sequences of labels: equal sets are equal ids.
+// An event is a complete channel value (`c.1.true`). The table numbers events in order of first
+// use; the numbers are the labels of the LTS, so 0 is τ and 1 is ✓. Event sets and relations
+// between events are hash-consed sorted sequences of labels: equal sets are equal ids.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Script: a CSPM file, loaded and ready to be asked. The public face of this library.
 //
-// Loading reads, parses, resolves and lowers (steps 1-5); values and processes are evaluated on demand
-// (step 6), and `TermSystem` gives a process its transitions (the step rules), so that
+// Loading reads, parses, resolves and lowers (steps 1-5); values and processes are evaluated on
+// demand (step 6), and `TermSystem` gives a process its transitions (the step rules), so that
 // `lts::explore` can make an LTS of it.
 #pragma once
 

@@ -1,9 +1,10 @@
 // The operational semantics of process terms, rule by rule (CSPM reference 4.1-4.5).
 //
-// These rules are the reference for everything faster: a term's transitions are computed from those of
-// its operands, and a named call is unfolded to its body. ✓ is treated as FDR treats it: an ordinary
-// label that every parallel operator synchronises, after which nothing happens (4.1.2, 4.1.3). The
-// compressions that preserve every semantic model (`normal`, `sbisim`, ..) are taken as the identity.
+// These rules are the reference for everything faster: a term's transitions are computed from those
+// of its operands, and a named call is unfolded to its body. ✓ is treated as FDR treats it: an
+// ordinary label that every parallel operator synchronises, after which nothing happens
+// (4.1.2, 4.1.3). The compressions that preserve every semantic model (`normal`, `sbisim`, ..) are
+// taken as the identity.
 #pragma once
 
 #include <cstdint>
@@ -43,10 +44,11 @@ class StepRules {
       : calls_(calls), events_(events), processes_(processes), diagnostics_(diagnostics) {}
 
   /// The state that a term is: names that only stand for other names or for operators that stay in
-  /// place (parallels, hiding, renaming, ..) are no states of their own (6.2.2). Nothing on failure.
+  /// place (parallels, hiding, renaming, ..) are no states of their own (6.2.2). Nothing on
+  /// failure.
   std::optional<ProcId> state(ProcId process);
-  /// Appends the transitions of a term, with targets that are states. False: they cannot be computed;
-  /// the reason was reported, or `limit()` says which budget ran out.
+  /// Appends the transitions of a term, with targets that are states. False: they cannot be
+  /// computed; the reason was reported, or `limit()` says which budget ran out.
   bool successors(ProcId process, Steps& out);
   std::optional<base::LimitReached> limit() const { return limit_; }
 
@@ -87,9 +89,9 @@ class StepRules {
   ProcStore& processes_;
   base::Diagnostics& diagnostics_;
   std::uint32_t depth_ = 0;
-  std::unordered_set<std::uint32_t> unfolding_;               // calls that are being stepped
-  std::unordered_map<std::uint32_t, bool> only_terminates_;   // by process
-  std::unordered_map<std::uint32_t, ProcId> settled_;         // by process
+  std::unordered_set<std::uint32_t> unfolding_;              // calls that are being stepped
+  std::unordered_map<std::uint32_t, bool> only_terminates_;  // by process
+  std::unordered_map<std::uint32_t, ProcId> settled_;        // by process
   std::optional<base::LimitReached> limit_;
 };
 

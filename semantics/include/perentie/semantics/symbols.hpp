@@ -75,7 +75,7 @@ struct Resolution {
   std::unordered_map<std::uint32_t, ModuleMembers> modules;  ///< by SymbolId of module or instance
   std::unordered_map<std::uint32_t, ModuleInstance> instances;  ///< by DeclId of the instance
   std::unordered_map<std::uint32_t, SymbolId> tocks;  ///< by DeclId of a timed section: its `tock`
-  std::unordered_map<std::string, SymbolId> prelude;            ///< the functions of the prelude
+  std::unordered_map<std::string, SymbolId> prelude;  ///< the functions of the prelude
 };
 
 }  // namespace perentie::semantics

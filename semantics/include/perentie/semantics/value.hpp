@@ -1,8 +1,8 @@
 // Values: completely evaluated data, hash-consed, so equal values are equal ids.
 //
-// A `ValueId` is either a small integer itself or the index of a term in the `ValueStore`. Lazy things
-// (thunks, half-evaluated sequences, closures) live on the evaluator's heap, not here. Sets are sorted
-// by `compare`, the total order in which FDR enumerates them (CSPM reference 3.4.1).
+// A `ValueId` is either a small integer itself or the index of a term in the `ValueStore`. Lazy
+// things (thunks, half-evaluated sequences, closures) live on the evaluator's heap, not here. Sets
+// are sorted by `compare`, the total order in which FDR enumerates them (CSPM reference 3.4.1).
 #pragma once
 
 #include <cstdint>
@@ -33,21 +33,21 @@ enum class ValueKind : std::uint8_t {
   integer,
   boolean,
   character,
-  atom,         ///< a channel or constructor without arguments: {symbol}
-  dot,          ///< components; a completed constructor application is one component (3.6.1)
+  atom,  ///< a channel or constructor without arguments: {symbol}
+  dot,   ///< components; a completed constructor application is one component (3.6.1)
   tuple,
   empty_seq,
-  cons,         ///< {head, tail, length}
-  set,          ///< elements in ascending order
-  int_set,      ///< all integers
-  from_set,     ///< {n}: all integers from n
-  seq_set,      ///< {s}: all finite sequences over a set
-  data_set,     ///< {symbol}: all values of a datatype with infinitely many
-  map,          ///< {} or {key, value, map of smaller keys, map of greater keys}
-  process,      ///< {process}
-  function,     ///< {function, group, scope}: see evaluate's code.hpp
-  builtin,      ///< {builtin}
-  ignored,      ///< stands for an argument that a function ignores (3.8.2)
+  cons,      ///< {head, tail, length}
+  set,       ///< elements in ascending order
+  int_set,   ///< all integers
+  from_set,  ///< {n}: all integers from n
+  seq_set,   ///< {s}: all finite sequences over a set
+  data_set,  ///< {symbol}: all values of a datatype with infinitely many
+  map,       ///< {} or {key, value, map of smaller keys, map of greater keys}
+  process,   ///< {process}
+  function,  ///< {function, group, scope}: see evaluate's code.hpp
+  builtin,   ///< {builtin}
+  ignored,   ///< stands for an argument that a function ignores (3.8.2)
 };
 
 class ValueStore {
@@ -59,7 +59,8 @@ class ValueStore {
   ValueId make_bool(bool value) const { return value ? true_ : false_; }
   ValueId make_char(unsigned char value);
   ValueId make_atom(SymbolId symbol);
-  ValueId make_dot(std::span<const ValueId> components);  ///< two or more, none a plain dot at the end
+  ValueId make_dot(
+      std::span<const ValueId> components);  ///< two or more, none a plain dot at the end
   ValueId make_tuple(std::span<const ValueId> items);
   ValueId empty_seq() const { return empty_seq_; }
   ValueId make_cons(ValueId head, ValueId tail);
@@ -130,7 +131,8 @@ class ValueStore {
 };
 
 /// The partial order of `<=` (3.2.4): sequences by prefix, sets by inclusion, maps entry by entry,
-/// numbers and characters as usual, tuples by the total order. Nothing where the values have no order.
+/// numbers and characters as usual, tuples by the total order. Nothing where the values have no
+/// order.
 enum class Ordering : std::uint8_t { less, equal, greater, incomparable };
 std::optional<Ordering> compare_partially(const ValueStore& values, ValueId a, ValueId b);
 

@@ -1,8 +1,8 @@
 // Golden files: what a step printed when someone last looked at it and found it right.
 //
-// `EXPECT_TRUE(matches_golden("corpus/x.csp.ast", dump))` compares a text with a file. On a mismatch
-// the difference is shown; to accept all new texts, run the tests with PERENTIE_UPDATE_GOLDEN=1 and
-// review the change with `git diff`.
+// `EXPECT_TRUE(matches_golden("corpus/x.csp.ast", dump))` compares a text with a file. On a
+// mismatch the difference is shown; to accept all new texts, run the tests with
+// PERENTIE_UPDATE_GOLDEN=1 and review the change with `git diff`.
 #pragma once
 
 #include <algorithm>
@@ -48,8 +48,8 @@ inline std::string difference(const std::string& expected, const std::string& ac
     ++last;
   }
   std::ostringstream out;
-  const auto show = [&](const char* sign, const std::vector<std::string>& lines,
-                        std::size_t begin, std::size_t end) {
+  const auto show = [&](const char* sign, const std::vector<std::string>& lines, std::size_t begin,
+                        std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (i - begin == most) {
         out << sign << "... and " << end - i << " more lines\n";
@@ -62,8 +62,7 @@ inline std::string difference(const std::string& expected, const std::string& ac
   show("  ", old_lines, first - std::min(first, context), first);
   show("- ", old_lines, first, old_lines.size() - last);
   show("+ ", new_lines, first, new_lines.size() - last);
-  show("  ", new_lines, new_lines.size() - last,
-       new_lines.size() - last + std::min(last, context));
+  show("  ", new_lines, new_lines.size() - last, new_lines.size() - last + std::min(last, context));
   return out.str();
 }
 
