@@ -404,7 +404,8 @@ class Maker {
       case 0: {
         const ExprId specification = expr(depth + 1);
         const Model m = any_model();
-        result.claim = RefinementAssertion{specification, m, expr(depth + 1)};
+        const RefinementAssertion claim{specification, m, expr(depth + 1)};
+        result.claim = claim;
         break;
       }
       case 1: {
@@ -414,7 +415,8 @@ class Maker {
       }
       default: {
         const ExprId process = expr(depth + 1);
-        result.claim = HasTraceAssertion{process, model(), exprs(1, 3, depth)};
+        const HasTraceAssertion claim{process, model(), exprs(1, 3, depth)};
+        result.claim = claim;
       }
     }
     if (flip()) result.options.tau_priority = expr(depth + 1);

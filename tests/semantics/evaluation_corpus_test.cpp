@@ -39,7 +39,7 @@ TEST_P(PassingScript, HoldsItsTests) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Corpus, PassingScript, ::testing::ValuesIn(test::scripts_in(folder)),
-                         [](const auto& info) { return info.param.stem().string(); });
+                         [](const auto& script) { return script.param.stem().string(); });
 
 TEST(EvaluationCorpusTest, UsesEveryBuiltin) {
   std::set<std::string> words;
