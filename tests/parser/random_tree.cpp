@@ -404,8 +404,10 @@ class Maker {
       case 0: {
         const ExprId specification = expr(depth + 1);
         const Model m = any_model();
-        const RefinementAssertion claim{specification, m, expr(depth + 1)};
-        result.claim = claim;
+        auto& claim = result.claim.emplace<RefinementAssertion>();
+        claim.specification = specification;
+        claim.model = m;
+        claim.implementation = expr(depth + 1);
         break;
       }
       case 1: {
@@ -415,8 +417,10 @@ class Maker {
       }
       default: {
         const ExprId process = expr(depth + 1);
-        const HasTraceAssertion claim{process, model(), exprs(1, 3, depth)};
-        result.claim = claim;
+        auto& claim = result.claim.emplace<HasTraceAssertion>();
+        claim.process = process;
+        claim.model = model();
+        claim.trace = exprs(1, 3, depth);
       }
     }
     if (flip()) result.options.tau_priority = expr(depth + 1);
