@@ -63,7 +63,7 @@ TEST(MonitorCorpusTest, TheReportIsOneObjectOfTheSchemaOnOneLine) {
   EXPECT_EQ(report["line"], 56);
   EXPECT_EQ(report["column"], 1);
   EXPECT_EQ(json::parse(report["source"].get<std::string>())["target"]["name"], "WP1");
-  EXPECT_EQ(report["model_position"], json({"ROVER_ABORT ; ROVER_SYSTEM"}));
+  EXPECT_EQ(report["model_position"].dump(), R"(["ROVER_ABORT ; ROVER_SYSTEM"])");
   EXPECT_EQ(report["name"], "rover_red_ignored");
   EXPECT_EQ(report["mode"], "permissive");
   EXPECT_EQ(report["states"], 227);

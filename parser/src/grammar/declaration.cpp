@@ -58,7 +58,8 @@ const auto set_annotation = [](auto& context) {
 const x3::rule<struct EquationClass, DefinitionRest> equation = "`=`";
 const auto equation_def = (tok(K::define) > expression)[set_equation];
 const x3::rule<struct AnnotationClass, DefinitionRest> annotation = "`::`";
-const auto annotation_def = (more_identifiers >> tok(K::annotate) > annotated_type)[set_annotation];
+const auto annotation_def =
+    ((more_identifiers >> tok(K::annotate)) > annotated_type)[set_annotation];
 const x3::rule<struct DefinitionRestClass, DefinitionRest> definition_rest = "`=`";
 const auto definition_rest_def = equation | annotation;
 

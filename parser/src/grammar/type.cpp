@@ -38,8 +38,8 @@ const auto constraint_def =
 
 // No type has two names in a row, so that two tokens tell constraints from types.
 const auto two_names = tok(K::identifier) >> tok(K::identifier);
-const auto one_constraint = &two_names >> constraint[push] > tok(K::yields);
-const auto several_constraints = &(tok(K::left_paren) >> two_names) >> tok(K::left_paren) >
+const auto one_constraint = (&two_names >> constraint[push]) > tok(K::yields);
+const auto several_constraints = (&(tok(K::left_paren) >> two_names) >> tok(K::left_paren)) >
                                  comma_separated(constraint[push]) >
                                  tok(K::right_paren, "`,` or `)`") > tok(K::yields);
 const auto constraints = list_of<Constraint>(-(one_constraint | several_constraints));

@@ -7,7 +7,6 @@ namespace perentie::parser {
 namespace {
 
 // The levels of types: `.`, then `=>` and `=>*`, then `->`; all to the right (1.8).
-constexpr std::uint8_t level_atom = 0;
 constexpr std::uint8_t level_dot = 1;
 constexpr std::uint8_t level_yield = 2;
 constexpr std::uint8_t level_function = 3;
