@@ -26,6 +26,10 @@ std::optional<std::string> text_of(semantics::Script& script, const std::string&
 }
 
 ExitCode evaluate(const Options& options, Console& console) {
+  if (options.expressions.empty() && options.processes.empty()) {
+    console.error("there is nothing to evaluate: --expression or --process is needed");
+    return ExitCode::usage;
+  }
   Input input;
   ExitCode code = ExitCode::ok;
   const auto script = load_script(options.file, input, console, code);
@@ -63,7 +67,6 @@ Command add_eval(CLI::App& program) {
   app->add_option("-p,--process", options->processes,
                   "A process, to be shown with the definitions that it leads to")
       ->type_name("EXPR");
-  app->require_option(1, 0);
   options->budget.add_to(*app);
   app->footer(
       "Example:\n"

@@ -19,6 +19,22 @@ TEST(EvalTest, PrintsOneValueALine) {
   EXPECT_EQ(outcome.errors, "");
 }
 
+TEST(EvalTest, ShowsAProcessWithItsDefinitions) {
+  const Outcome outcome = perentie({"eval", rover, "-p", "ROVER_ABORT"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.output,
+            "SKIP = ✓ -> STOP\n\n"
+            "ROVER_ABORT = move.0 -> mission_abort -> SKIP\n\n"
+            "ROVER_ABORT\n");
+}
+
+TEST(EvalTest, NeedsSomethingToEvaluate) {
+  const Outcome outcome = perentie({"eval", rover});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_NE(outcome.errors.find("nothing to evaluate"), std::string::npos);
+}
+
 TEST(EvalTest, AWrongExpressionDoesNotLoseTheOthers) {
   const Outcome outcome = perentie({"eval", rover, "-e", "1 +", "-e", "2 + 3"});
   EXPECT_EQ(outcome.exit_code, 3);
