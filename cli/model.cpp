@@ -69,13 +69,11 @@ base::Limits BudgetOptions::limits() const {
 }
 
 std::optional<base::FileId> Input::read(const std::string& path) {
-  base::FileText file = base::read_file(path);
-  if (file.text) {
-    if (const auto id = sources.add(path, std::move(*file.text))) return id;
-    file.error = "it is too large";
+  const base::AddedFile added = base::add_file(path, sources);
+  if (!added.file) {
+    diagnostics.report(unreadable_file, fmt::format("cannot read `{}`: {}", path, added.error));
   }
-  diagnostics.report(unreadable_file, fmt::format("cannot read `{}`: {}", path, file.error));
-  return std::nullopt;
+  return added.file;
 }
 
 ExitCode Input::failure(ExitCode otherwise) const {

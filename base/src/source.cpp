@@ -101,4 +101,11 @@ FileText read_file(const std::string& path) {
   return {std::move(text), {}};
 }
 
+AddedFile add_file(const std::string& path, SourceMap& sources) {
+  FileText file = read_file(path);
+  if (!file.text) return {std::nullopt, std::move(file.error)};
+  const std::optional<FileId> id = sources.add(path, std::move(*file.text));
+  return {id, id ? "" : "it is too large"};
+}
+
 }  // namespace perentie::base

@@ -119,18 +119,13 @@ std::optional<EventMap> parse_event_map(base::FileId file, const base::SourceMap
 
 std::optional<EventMap> load_event_map(const std::string& path, base::SourceMap& sources,
                                        base::Diagnostics& diagnostics) {
-  base::FileText file = base::read_file(path);
-  std::optional<base::FileId> id;
-  if (file.text) {
-    id = sources.add(path, std::move(*file.text));
-    if (!id) file.error = "it is too large";
-  }
-  if (!id) {
+  const base::AddedFile added = base::add_file(path, sources);
+  if (!added.file) {
     diagnostics.report(codes::unreadable_file,
-                       fmt::format("cannot read the event map `{}`: {}", path, file.error));
+                       fmt::format("cannot read the event map `{}`: {}", path, added.error));
     return std::nullopt;
   }
-  return parse_event_map(*id, sources, diagnostics);
+  return parse_event_map(*added.file, sources, diagnostics);
 }
 
 }  // namespace perentie::monitor

@@ -132,18 +132,13 @@ std::optional<VaranusConfig> parse_varanus_config(base::FileId file, const base:
 
 std::optional<VaranusConfig> load_varanus_config(const std::string& path, base::SourceMap& sources,
                                                  base::Diagnostics& diagnostics) {
-  base::FileText file = base::read_file(path);
-  std::optional<base::FileId> id;
-  if (file.text) {
-    id = sources.add(path, std::move(*file.text));
-    if (!id) file.error = "it is too large";
-  }
-  if (!id) {
+  const base::AddedFile added = base::add_file(path, sources);
+  if (!added.file) {
     diagnostics.report(codes::unreadable_file,
-                       fmt::format("cannot read the config `{}`: {}", path, file.error));
+                       fmt::format("cannot read the config `{}`: {}", path, added.error));
     return std::nullopt;
   }
-  return parse_varanus_config(*id, sources, diagnostics);
+  return parse_varanus_config(*added.file, sources, diagnostics);
 }
 
 }  // namespace perentie::monitor

@@ -121,6 +121,17 @@ void Lowering::value(ExprId expr, Tail tail) {
   const base::Span span = tree_.exprs[expr].span;
   span_ = span;
   bool finished = false;  // the branches have returned themselves
+  // A comprehension of a sequence is a block that returns; elsewhere it is the value of a thunk.
+  const auto in_own_block = [&](const auto& e) {
+    if (e.kind != Collection::sequence || e.statements.empty()) return false;
+    if (tail == Tail::yes) {
+      finished = true;
+      return false;
+    }
+    thunk(expr);
+    emit(Op::force);
+    return true;
+  };
   std::visit(overload{
                  [&](const parser::NameExpr&) {
                    const SymbolId symbol = resolution_.of_expr[expr.value];
@@ -148,25 +159,11 @@ void Lowering::value(ExprId expr, Tail tail) {
                    emit(Op::make_map, e.keys.count);
                  },
                  [&](const parser::CollectionExpr& e) {
-                   if (e.kind == Collection::sequence && !e.statements.empty()) {
-                     if (tail == Tail::no) {
-                       thunk(expr);
-                       emit(Op::force);
-                       return;
-                     }
-                     finished = true;
-                   }
+                   if (in_own_block(e)) return;
                    collection(e);
                  },
                  [&](const parser::RangeExpr& e) {
-                   if (e.kind == Collection::sequence && !e.statements.empty()) {
-                     if (tail == Tail::no) {
-                       thunk(expr);
-                       emit(Op::force);
-                       return;
-                     }
-                     finished = true;
-                   }
+                   if (in_own_block(e)) return;
                    range(e);
                  },
                  [&](const parser::ApplyExpr&) { apply(expr); },

@@ -81,4 +81,11 @@ struct FileText {
 };
 FileText read_file(const std::string& path);
 
+/// Reads a file into the sources; without `file`, `error` says why it could not be done.
+struct AddedFile {
+  std::optional<FileId> file;
+  std::string error;
+};
+AddedFile add_file(const std::string& path, SourceMap& sources);
+
 }  // namespace perentie::base
