@@ -1,4 +1,4 @@
-// perentie eval: the value of an expression in the scope of a script.
+// perentie eval: the value or the type of an expression in the scope of a script.
 #include <memory>
 
 #include <fmt/format.h>
@@ -13,21 +13,21 @@ struct Options {
   std::string file;
   std::vector<std::string> expressions;
   std::vector<std::string> processes;
+  std::vector<std::string> typed;
   BudgetOptions budget;
 };
 
-// The text of an expression's value, or of a process with its definitions.
-std::optional<std::string> text_of(semantics::Script& script, const std::string& expression,
-                                   bool is_process, Input& input) {
-  if (!is_process) return script.evaluate(expression, input.diagnostics);
-  const auto process = script.process(expression, input.diagnostics);
+// A process with the definitions that it leads to.
+std::optional<std::string> process_text(semantics::Script& script, const std::string& expression,
+                                        base::Diagnostics& diagnostics) {
+  const auto process = script.process(expression, diagnostics);
   if (!process) return std::nullopt;
-  return script.definitions(*process, input.diagnostics);
+  return script.definitions(*process, diagnostics);
 }
 
 ExitCode evaluate(const Options& options, Console& console) {
-  if (options.expressions.empty() && options.processes.empty()) {
-    console.error("there is nothing to evaluate: --expression or --process is needed");
+  if (options.expressions.empty() && options.processes.empty() && options.typed.empty()) {
+    console.error("there is nothing to evaluate: --expression, --process or --type is needed");
     return ExitCode::usage;
   }
   Input input;
@@ -36,12 +36,7 @@ ExitCode evaluate(const Options& options, Console& console) {
   if (script == nullptr) return code;
   script->set_limits(options.budget.limits());
   code = ExitCode::ok;
-  const std::size_t count = options.expressions.size() + options.processes.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool is_process = i >= options.expressions.size();
-    const std::string& expression =
-        is_process ? options.processes[i - options.expressions.size()] : options.expressions[i];
-    const auto text = text_of(*script, expression, is_process, input);
+  const auto answer = [&](const std::optional<std::string>& text) {
     console.print(input.diagnostics, input.sources);
     if (text) {
       console.result(*text + '\n');
@@ -51,6 +46,15 @@ ExitCode evaluate(const Options& options, Console& console) {
     } else {
       code = ExitCode::model_error;
     }
+  };
+  for (const std::string& expression : options.expressions) {
+    answer(script->evaluate(expression, input.diagnostics));
+  }
+  for (const std::string& process : options.processes) {
+    answer(process_text(*script, process, input.diagnostics));
+  }
+  for (const std::string& expression : options.typed) {
+    answer(script->type_of(expression, input.diagnostics));
   }
   return code;
 }
@@ -67,11 +71,14 @@ Command add_eval(CLI::App& program) {
   app->add_option("-p,--process", options->processes,
                   "A process, to be shown with the definitions that it leads to")
       ->type_name("EXPR");
+  app->add_option("-t,--type", options->typed, "An expression whose type is to be shown")
+      ->type_name("EXPR");
   options->budget.add_to(*app);
   app->footer(
       "Example:\n"
       "  perentie eval corpus/rover/rover.csp -e 'card(waypointID)' -e '{| move |}'\n"
-      "  perentie eval corpus/rover/rover.csp -p ROVER_ABORT");
+      "  perentie eval corpus/rover/rover.csp -p ROVER_ABORT\n"
+      "  perentie eval corpus/rover/rover.csp -t '{| move |}'");
   return {app, [options](Console& console) { return evaluate(*options, console); }};
 }
 

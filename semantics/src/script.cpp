@@ -7,9 +7,10 @@
 #include "perentie/semantics/diagnostic_codes.hpp"
 #include "perentie/semantics/resolve.hpp"
 #include "perentie/semantics/step.hpp"
+#include "perentie/semantics/types.hpp"
 #include "prelude.hpp"
-#include "process_kinds.hpp"
 #include "show_definitions.hpp"
+#include "types/signatures.hpp"
 
 namespace perentie::semantics {
 
@@ -28,12 +29,16 @@ struct Script::Impl {
   ProcStore processes;
   Program program;
   PreludeFunctions prelude{};
+  std::size_t prelude_symbols = 0;  // those before the script's own
+  std::optional<TypeChecker> types;
   std::optional<Lowering> lowering;
   std::optional<Machine> machine;
 
   bool prepare(base::Diagnostics& diagnostics);
   void load_prelude(base::Diagnostics& diagnostics);
-  parser::ExprId parse(std::string_view text, const std::string& origin,
+  void mark_processes_by_type();
+  enum class Expected : std::uint8_t { anything, process };
+  parser::ExprId parse(std::string_view text, const std::string& origin, Expected expected,
                        base::Diagnostics& diagnostics);
 };
 
@@ -43,8 +48,17 @@ void Script::Impl::load_prelude(base::Diagnostics& diagnostics) {
   const parser::DeclList declarations =
       parser::parse_declarations(*file, tree, sources, diagnostics, options);
   resolver.resolve_prelude(declarations, diagnostics);
+  const auto signatures_file = sources.add("<signatures>", std::string(signatures_text));
+  PERENTIE_CHECK(signatures_file.has_value(), "no room for the signatures");
+  const parser::DeclList signatures =
+      parser::parse_declarations(*signatures_file, tree, sources, diagnostics, options);
+  types.emplace(tree, resolver.result());
+  types->declare(signatures, diagnostics);
+  types->check_declarations(declarations, diagnostics);
   PERENTIE_CHECK(!diagnostics.has_errors(), "the prelude has errors");
-  mark_processes(tree, resolver.result());
+  mark_processes_by_type();
+  // Scripts see the types that the functions are said to have.
+  types->declare(signatures, diagnostics);
   const auto function = [&](const char* name) { return resolver.result().prelude.at(name); };
   prelude = {.append = function("append_"),
              .length = function("length"),
@@ -68,11 +82,25 @@ void Script::Impl::load_prelude(base::Diagnostics& diagnostics) {
   program.prelude_end = static_cast<Address>(program.code.size());
 }
 
+// A constant or function is a process by its type, whatever its definition looks like (3.8.2).
+void Script::Impl::mark_processes_by_type() {
+  auto& symbols = resolver.result().symbols;
+  for (std::uint32_t i = 0; i < symbols.size(); ++i) {
+    Symbol& symbol = symbols[SymbolId{i}];
+    const bool is_definition =
+        symbol.kind == SymbolKind::constant || symbol.kind == SymbolKind::function;
+    if (is_definition && types->is_process(SymbolId{i})) symbol.is_process = true;
+  }
+}
+
 bool Script::Impl::prepare(base::Diagnostics& diagnostics) {
   load_prelude(diagnostics);
+  prelude_symbols = resolver.result().symbols.size();
   resolver.resolve_script(tree.declarations, diagnostics);
   if (diagnostics.has_errors()) return false;
-  mark_processes(tree, resolver.result());
+  types->check_declarations(tree.declarations, diagnostics);
+  if (diagnostics.has_errors()) return false;
+  mark_processes_by_type();
   lowering->declarations(tree.declarations);
   if (diagnostics.has_errors()) return false;
   machine.emplace(program, resolver.result(), lowering->global_slot(prelude.append),
@@ -81,9 +109,9 @@ bool Script::Impl::prepare(base::Diagnostics& diagnostics) {
   return true;
 }
 
-// Parses and resolves an expression in the scope of the script; none if it is wrong.
+// Parses, resolves and infers an expression in the scope of the script; none if it is wrong.
 parser::ExprId Script::Impl::parse(std::string_view text, const std::string& origin,
-                                   base::Diagnostics& diagnostics) {
+                                   Expected expected, base::Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.error_count();
   const auto file = sources.add(origin, std::string(text));
   if (!file) return {};
@@ -91,7 +119,11 @@ parser::ExprId Script::Impl::parse(std::string_view text, const std::string& ori
   if (!expr || diagnostics.error_count() > errors) return {};
   resolver.resolve_expression(expr, diagnostics);
   if (diagnostics.error_count() > errors) return {};
-  mark_processes(tree, resolver.result());
+  const bool is_well_typed = expected == Expected::process
+                                 ? types->check_process(expr, diagnostics)
+                                 : types->check_expression(expr, diagnostics);
+  if (!is_well_typed) return {};
+  mark_processes_by_type();
   return expr;
 }
 
@@ -115,7 +147,8 @@ std::optional<base::LimitReached> Script::limit() const { return impl_->machine-
 std::optional<std::string> Script::evaluate(std::string_view expression,
                                             base::Diagnostics& diagnostics,
                                             const std::string& origin) {
-  const parser::ExprId expr = impl_->parse(expression, origin, diagnostics);
+  const parser::ExprId expr =
+      impl_->parse(expression, origin, Impl::Expected::anything, diagnostics);
   if (!expr) return std::nullopt;
   const Address entry = impl_->lowering->expression(expr);
   impl_->machine->extend_globals();
@@ -126,13 +159,23 @@ std::optional<std::string> Script::evaluate(std::string_view expression,
 
 std::optional<ProcId> Script::process(std::string_view expression, base::Diagnostics& diagnostics,
                                       const std::string& origin) {
-  const parser::ExprId expr = impl_->parse(expression, origin, diagnostics);
+  const parser::ExprId expr =
+      impl_->parse(expression, origin, Impl::Expected::process, diagnostics);
   if (!expr) return std::nullopt;
   const Address entry = impl_->lowering->process_expression(expr);
   impl_->machine->extend_globals();
   const std::optional<ValueId> value = impl_->machine->run(entry, diagnostics);
   if (!value) return std::nullopt;
   return impl_->values.as_process(*value);
+}
+
+std::optional<std::string> Script::type_of(std::string_view expression,
+                                           base::Diagnostics& diagnostics,
+                                           const std::string& origin) {
+  const parser::ExprId expr =
+      impl_->parse(expression, origin, Impl::Expected::anything, diagnostics);
+  if (!expr) return std::nullopt;
+  return impl_->types->show(expr);
 }
 
 std::optional<std::string> Script::definitions(ProcId process, base::Diagnostics& diagnostics) {
@@ -159,6 +202,17 @@ std::vector<std::string> Script::process_names() const {
     const bool is_definition =
         symbol.kind == SymbolKind::constant || symbol.kind == SymbolKind::function;
     if (is_definition && symbol.is_process && symbol.decl) names.push_back(symbol.qualified);
+  }
+  return names;
+}
+
+std::vector<Script::TypedName> Script::types() const {
+  std::vector<TypedName> names;
+  const Resolution& resolution = impl_->resolver.result();
+  for (const SymbolId symbol : impl_->types->top_level()) {
+    if (symbol.value < impl_->prelude_symbols) continue;
+    names.push_back(
+        {resolution.symbols[symbol].qualified, impl_->types->show(symbol).value_or("")});
   }
   return names;
 }

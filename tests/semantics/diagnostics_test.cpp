@@ -1,7 +1,8 @@
 // The corpus of errors: each script is reported as its comments and its golden file say.
 //
-// Scripts in corpus/names/fail cannot be loaded. Those in corpus/evaluate/fail can; every constant
-// `fail..` of theirs is evaluated and every process `FAIL..` explored, in the order of the file.
+// Scripts in corpus/names/fail and corpus/types/fail cannot be loaded. Those in
+// corpus/evaluate/fail can; every constant `fail..` of theirs is evaluated and every process
+// `FAIL..` explored, in the order of the file.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -88,9 +89,9 @@ TEST_P(FailingScript, IsReportedAsItsGoldenFileSays) {
   EXPECT_TRUE(test::matches_golden(with_suffix(GetParam(), ".diagnostics"), script->messages()));
 }
 
-TEST_P(FailingScript, CannotBeLoadedIfItsNamesAreWrong) {
-  const bool names = GetParam().parent_path().parent_path().stem() == "names";
-  EXPECT_EQ(TestScript::of_file(GetParam())->loaded(), !names);
+TEST_P(FailingScript, IsLoadedOnlyIfItsErrorsAreThoseOfEvaluation) {
+  const bool evaluated = GetParam().parent_path().parent_path().stem() == "evaluate";
+  EXPECT_EQ(TestScript::of_file(GetParam())->loaded(), evaluated);
 }
 
 std::string test_name(const ::testing::TestParamInfo<fs::path>& info) {
@@ -100,20 +101,26 @@ std::string test_name(const ::testing::TestParamInfo<fs::path>& info) {
 INSTANTIATE_TEST_SUITE_P(Names, FailingScript,
                          ::testing::ValuesIn(test::scripts_in(test::corpus() / "names/fail")),
                          test_name);
+INSTANTIATE_TEST_SUITE_P(Types, FailingScript,
+                         ::testing::ValuesIn(test::scripts_in(test::corpus() / "types/fail")),
+                         test_name);
 INSTANTIATE_TEST_SUITE_P(Evaluate, FailingScript,
                          ::testing::ValuesIn(test::scripts_in(test::corpus() / "evaluate/fail")),
                          test_name);
 
 TEST(DiagnosticCodesTest, EachIsProducedBySomeScriptOfTheCorpus) {
   std::set<std::string_view> produced;
-  for (const char* folder : {"names/fail", "evaluate/fail"}) {
+  for (const char* folder : {"names/fail", "types/fail", "evaluate/fail"}) {
     for (const fs::path& file : test::scripts_in(test::corpus() / folder)) {
       const auto script = provoke(file);
       for (const base::Diagnostic& d : script->diagnostics().all()) produced.insert(d.code->id);
     }
   }
   for (const base::DiagnosticCode* code : codes::all) {
-    if (code->id == codes::nested_too_deeply.id) continue;  // limits_test makes its script
+    // Their scripts are made by limits_test and types_test.
+    if (code->id == codes::nested_too_deeply.id || code->id == codes::type_too_deep.id) continue;
+    // The type checker excludes them; they guard the evaluator against its mistakes.
+    if (code->id == codes::wrong_type.id || code->id == codes::not_an_event.id) continue;
     EXPECT_TRUE(produced.contains(code->id)) << code->id << ": " << code->title;
   }
 }

@@ -81,8 +81,8 @@ TEST(PrefixTest, ValuesOutsideTheDeclarationAreErrors) {
   EXPECT_EQ(codes_of_process("n.2 -> STOP"), "E007");
   EXPECT_EQ(codes_of_process("n!2 -> STOP"), "E007");
   EXPECT_EQ(codes_of_process("n?x:{0, 2} -> STOP"), "E007");
-  EXPECT_EQ(codes_of_process("n -> STOP"), "E009");
-  EXPECT_EQ(codes_of_process("d!0 -> STOP"), "E009");
+  EXPECT_EQ(codes_of_process("n -> STOP"), "T001");
+  EXPECT_EQ(codes_of_process("d!0 -> STOP"), "T001");
 }
 
 TEST(PrefixTest, ChannelsThatCarryEvents) {

@@ -113,5 +113,53 @@ TEST(SharedModelsTest, EvaluatesTheTestsOfTheFrontEnd) {
   EXPECT_GE(count, 100U);
 }
 
+// --- The type checker's tests of that front end
+// ----------------------------------------------------
+
+TEST(SharedModelsTest, AcceptsAndRefusesWhatTheFrontEndDoes) {
+  PERENTIE_SHARED_DATA_OR_SKIP(data);
+  std::ifstream cases(data / "libcspm-tests/CASES.txt");
+  ASSERT_TRUE(cases);
+  std::size_t accepted = 0;
+  std::size_t refused = 0;
+  for (std::string line; std::getline(cases, line);) {
+    if (!line.starts_with("typechecker/")) continue;
+    const auto script = TestScript::of_file(data / "libcspm-tests" / line);
+    const bool is_accepted = line.find("should_pass") != std::string::npos;
+    EXPECT_EQ(script->loaded(), is_accepted) << line << '\n' << script->messages();
+    ++(is_accepted ? accepted : refused);
+  }
+  EXPECT_GE(accepted, 30U);
+  EXPECT_GE(refused, 60U);
+}
+
+// Models whose type errors are real, by what is wrong with them.
+const std::map<std::string, std::string>& ill_typed_models() {
+  static const std::map<std::string, std::string> models{
+      {"testharness.csp", "it asserts on processes without their arguments"},
+      {"actionlib_test.csp", "its channels have a field that the client does not give"},
+      {"DiningPhilosophers.csp", "its annotations name a set where a type is needed"},
+  };
+  return models;
+}
+
+// Every model is well-typed, or lacks names: it is a part of others, which include it.
+TEST(SharedModelsTest, ModelsAreWellTyped) {
+  PERENTIE_SHARED_DATA_OR_SKIP(data);
+  std::size_t well_typed = 0;
+  for (const char* folder : {"varanus", "processj-shared", "circus2csp", "curiosity-nfm2020",
+                             "tyger", "futex", "dcreager-csp-models", "prob2-groovy"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(data / folder)) {
+      if (entry.path().extension() != ".csp") continue;
+      const std::string name = entry.path().filename().string();
+      const auto script = TestScript::of_file(entry.path());
+      if (script->loaded()) ++well_typed;
+      const bool is_ill_typed = script->codes().find('T') != std::string::npos;
+      EXPECT_EQ(is_ill_typed, ill_typed_models().contains(name)) << script->messages();
+    }
+  }
+  EXPECT_GE(well_typed, 60U);
+}
+
 }  // namespace
 }  // namespace perentie::semantics

@@ -163,10 +163,16 @@ void Resolver::Impl::bind_all(const std::unordered_map<NameId, SymbolId>& names)
 void Resolver::Impl::check_annotations(DeclList list, const Group& group) {
   std::unordered_map<NameId, Span> annotated;
   for (const DeclId id : tree.list(list)) {
+    if (const auto* timed = std::get_if<parser::TimedDecl>(&tree.decls[id].node)) {
+      check_annotations(timed->declarations, group);
+    }
     const auto* d = std::get_if<parser::AnnotationDecl>(&tree.decls[id].node);
     if (d == nullptr) continue;
     for (const parser::Identifier& name : tree.list(d->names)) {
-      if (!group.names.contains(name.name)) {
+      const auto defined = group.names.find(name.name);
+      if (defined != group.names.end()) {
+        result.annotations.emplace(defined->second.value, id);
+      } else {
         diagnostics->report(
             codes::annotation_misplaced, name.span,
             fmt::format("`{}` has a type annotation but no definition at the same level",
@@ -217,9 +223,51 @@ void Resolver::Impl::visit_bodies(DeclId id) {
                  },
                  [&](const parser::InstanceDecl& d) { then_all(K::expr, tree.list(d.arguments)); },
                  [&](const parser::TimedDecl& d) { visit_timed(id, d); },
+                 [&](const parser::AnnotationDecl& d) { visit_type(d.type); },
                  [](const auto&) {},
              },
              tree.decls[id].node);
+}
+
+// What is no datatype's name is a type variable or a simple type, unless it is qualified (1.8).
+void Resolver::Impl::visit_type(parser::TypeId root) {
+  std::vector<parser::TypeId> stack{root};
+  const auto push = [&](parser::TypeList list) {
+    const auto types = tree.list(list);
+    stack.insert(stack.end(), types.begin(), types.end());
+  };
+  const auto push_two = [&](parser::TypeId left, parser::TypeId right) {
+    stack.insert(stack.end(), {left, right});
+  };
+  while (!stack.empty()) {
+    const parser::TypeId id = stack.back();
+    stack.pop_back();
+    std::visit(overload{
+                   [&](const parser::NamedType& t) {
+                     const auto parts = tree.list(t.name);
+                     if (parts.size() > 1) {
+                       result.of_type[id.value] = lookup(t.name, tree.types[id].span);
+                       return;
+                     }
+                     const SymbolId symbol = binding(parts[0]);
+                     if (!symbol || result.symbols[symbol].kind != SymbolKind::datatype) return;
+                     result.symbols[symbol].is_used = true;
+                     result.of_type[id.value] = symbol;
+                   },
+                   [&](const parser::SetType& t) { stack.push_back(t.element); },
+                   [&](const parser::SequenceType& t) { stack.push_back(t.element); },
+                   [&](const parser::TupleType& t) { push(t.items); },
+                   [&](const parser::MapType& t) { push_two(t.key, t.value); },
+                   [&](const parser::DotType& t) { push_two(t.left, t.right); },
+                   [&](const parser::YieldType& t) { push_two(t.argument, t.result); },
+                   [&](const parser::ExtendableType& t) { push_two(t.argument, t.result); },
+                   [&](const parser::FunctionType& t) {
+                     push(t.arguments);
+                     stack.push_back(t.result);
+                   },
+               },
+               tree.types[id].node);
+  }
 }
 
 void Resolver::Impl::visit_datatype(DeclId id, const parser::DatatypeDecl& d) {

@@ -71,6 +71,7 @@ void Resolver::Impl::make_room() {
   result.of_expr.resize(tree.exprs.size());
   result.of_pattern.resize(tree.patterns.size());
   result.of_decl.resize(tree.decls.size());
+  result.of_type.resize(tree.types.size());
 }
 
 Resolver::Resolver(parser::SyntaxTree& tree) : impl_(std::make_unique<Impl>(tree)) {}

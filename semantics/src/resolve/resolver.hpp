@@ -165,6 +165,7 @@ struct Resolver::Impl {
   void visit_bodies(DeclId id);
   void visit_datatype(DeclId id, const parser::DatatypeDecl& d);
   void visit_assertion(const parser::Assertion& assertion);
+  void visit_type(parser::TypeId id);
   void check_clauses(const parser::FunctionDecl& d);
   void visit_clause(DeclId id, std::uint32_t index);
   void visit_timed(DeclId id, const parser::TimedDecl& d);

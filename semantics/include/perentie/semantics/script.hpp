@@ -1,6 +1,6 @@
 // Script: a CSPM file, loaded and ready to be asked. The public face of this library.
 //
-// Loading reads, parses, resolves and lowers (steps 1-5); values and processes are evaluated on
+// Loading reads, parses, resolves, infers types and lowers (steps 1-5); values and processes are evaluated on
 // demand (step 6), and `TermSystem` gives a process its transitions (the step rules), so that
 // `lts::explore` can make an LTS of it.
 #pragma once
@@ -43,6 +43,9 @@ class Script {
   /// call the text.
   std::optional<std::string> evaluate(std::string_view expression, base::Diagnostics& diagnostics,
                                       const std::string& origin = "<expression>");
+  /// The type of an expression in the script's scope, as FDR prints it.
+  std::optional<std::string> type_of(std::string_view expression, base::Diagnostics& diagnostics,
+                                     const std::string& origin = "<expression>");
   /// A process with the definitions that it leads to (`show_definitions`).
   std::optional<std::string> definitions(ProcId process, base::Diagnostics& diagnostics);
   /// The process that an expression stands for.
@@ -59,6 +62,14 @@ class Script {
   /// The names of the definitions whose value is a process, in order of definition, without
   /// parameters. For messages and completion.
   std::vector<std::string> process_names() const;
+
+  /// What the script defines at its top level and in its modules, with types, in order of
+  /// definition.
+  struct TypedName {
+    std::string name;
+    std::string type;
+  };
+  std::vector<TypedName> types() const;
 
   /// The compressions that were evaluated so far: the step rules take them as the identity.
   std::vector<std::string> compressions_taken_as_identity() const;

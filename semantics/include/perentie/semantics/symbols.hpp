@@ -68,6 +68,9 @@ struct Resolution {
       of_pattern;  ///< a NamePattern: the variable it binds or the atom it matches
   std::vector<SymbolId>
       of_decl;  ///< a function, datatype, nametype, module or instance: its symbol
+  std::vector<SymbolId> of_type;  ///< a NamedType: the datatype or other definition that it names
+  /// By SymbolId of what has a type annotation: the AnnotationDecl.
+  std::unordered_map<std::uint32_t, parser::DeclId> annotations;
   std::vector<SymbolId> channels;  ///< all channels, in order of declaration
   /// By DeclId: the channels of a channel declaration, the constructors that a datatype declares or
   /// a subtype names.
