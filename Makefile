@@ -46,6 +46,13 @@ asan tsan:  ## all tests with the address and undefined-behaviour, or the thread
 	@$(call build,$@)
 	@cmake/run_tests.sh build/$@ $(jobs)
 
+.PHONY: fuzz
+fuzz: seconds ?= 60
+fuzz:  ## fuzz each reader for a minute, or for seconds=N
+	@$(packages) program test fuzz
+	@$(call build,fuzz)
+	@cmake/run_fuzzers.sh build/fuzz $(seconds)
+
 .PHONY: bench
 bench:  ## measure; docs/performance.md has the figures
 	@$(packages) program bench

@@ -20,6 +20,7 @@ Command add_monitor(CLI::App& program);
 Command add_lts(CLI::App& program);
 Command add_eval(CLI::App& program);
 Command add_typecheck(CLI::App& program);
+Command add_repl(CLI::App& program);
 Command add_dump(CLI::App& program);
 
 }  // namespace perentie::cli

@@ -89,4 +89,9 @@ void catch_interrupts() {
   });
 }
 
+void forget_interrupt() {
+  interrupt_flag.store(false);
+  catch_interrupts();
+}
+
 }  // namespace perentie::cli

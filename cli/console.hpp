@@ -20,6 +20,8 @@ class Console {
 
   /// Prints the diagnostics that were not printed before.
   void print(const base::Diagnostics& diagnostics, const base::SourceMap& sources);
+  /// The diagnostics were cleared: none of the next ones was printed before.
+  void forget_printed() { printed_ = 0; }
   /// A result, to standard output. That it could not be written is noticed when the program ends.
   void result(std::string_view text) const;
   /// `perentie: error: message`.
@@ -43,5 +45,7 @@ class Console {
 /// Set by SIGINT; every long step looks at it.
 const std::atomic<bool>& interrupted();
 void catch_interrupts();
+/// What comes next was not interrupted yet.
+void forget_interrupt();
 
 }  // namespace perentie::cli

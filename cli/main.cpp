@@ -72,7 +72,7 @@ ExitCode run(int argc, char** argv) {
       });
 
   std::vector<Command> commands;
-  for (const auto add : {add_monitor, add_lts, add_eval, add_typecheck, add_dump}) {
+  for (const auto add : {add_monitor, add_lts, add_eval, add_typecheck, add_repl, add_dump}) {
     commands.push_back(add(program));
   }
   Console console;

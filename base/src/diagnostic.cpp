@@ -77,6 +77,11 @@ Diagnostic& Diagnostics::report(const DiagnosticCode& code, std::string message)
   return keep({&code, std::nullopt, std::move(message), {}});
 }
 
+void Diagnostics::clear() {
+  diagnostics_.clear();
+  error_count_ = 0;
+}
+
 Diagnostic& Diagnostics::keep(Diagnostic diagnostic) {
   if (diagnostic.code->severity == Severity::error && ++error_count_ > max_kept_errors) {
     overflow_ = std::move(diagnostic);

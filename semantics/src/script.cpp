@@ -198,7 +198,9 @@ std::vector<std::string> Script::channel_names() const {
 
 std::vector<std::string> Script::process_names() const {
   std::vector<std::string> names;
-  for (const Symbol& symbol : impl_->resolver.result().symbols) {
+  const auto& symbols = impl_->resolver.result().symbols;
+  for (std::size_t i = impl_->prelude_symbols; i < symbols.size(); ++i) {
+    const Symbol& symbol = symbols[SymbolId{static_cast<std::uint32_t>(i)}];
     const bool is_definition =
         symbol.kind == SymbolKind::constant || symbol.kind == SymbolKind::function;
     if (is_definition && symbol.is_process && symbol.decl) names.push_back(symbol.qualified);

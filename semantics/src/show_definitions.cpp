@@ -3,13 +3,11 @@
 #include <unordered_set>
 #include <vector>
 
-#include <fmt/format.h>
-
 namespace perentie::semantics {
 namespace {
 
-constexpr std::size_t unlimited = std::string::npos / 4;
-constexpr std::size_t line_width = 80;
+// Long enough for the names that are looked for.
+constexpr std::size_t longest_known_name = 20;
 
 // FDR knows these by name alone, and prints them as defined by themselves.
 bool is_buffer(const std::string& name) {
@@ -24,12 +22,9 @@ bool is_buffer(const std::string& name) {
 std::optional<std::string> show_definitions(
     const ShowContext& context, ProcId process,
     const std::function<std::optional<ProcId>(ProcId call)>& unfold) {
-  const auto show = [&](ProcId term) { return show_process(context, term, unlimited); };
   std::vector<std::string> definitions;  // in the order in which they are met
-  const auto define = [&](const std::string& name, const std::string& body) {
-    const bool fits = name.size() + 3 + body.size() <= line_width;
-    definitions.push_back(fits ? fmt::format("{} = {}", name, body)
-                               : fmt::format("{} =\n    {}", name, body));
+  const auto define = [&](ProcId name, ProcId body) {
+    definitions.push_back(lay_out_definition(context, name, body));
   };
   std::vector<ProcId> stack{process};
   std::unordered_set<std::uint32_t> seen;
@@ -39,20 +34,23 @@ std::optional<std::string> show_definitions(
     if (!seen.insert(term.value).second) continue;
     const ProcKind kind = context.processes.kind(term);
     if (kind == ProcKind::call || kind == ProcKind::opaque) {
-      const std::string name = show(term);
-      if (is_buffer(name)) {
-        define(name, name);
+      const std::string name = show_process(context, term, longest_known_name);
+      if (kind == ProcKind::opaque) {
+        if (is_buffer(name)) define(term, term);
         continue;
       }
-      if (kind == ProcKind::opaque) continue;
-      const std::optional<ProcId> body = unfold(term);
+      const std::optional<ProcId> body = unfold(term);  // which may refuse the arguments
       if (!body) return std::nullopt;
-      if (!name.starts_with("STOP(")) define(name, show(*body));  // FDR does not define it either
+      if (is_buffer(name)) {
+        define(term, term);
+        continue;
+      }
+      if (!name.starts_with("STOP(")) define(term, *body);  // FDR does not define it either
       stack.push_back(*body);
     } else if (kind == ProcKind::skip) {
-      define("SKIP", "✓ -> STOP");
+      definitions.emplace_back("SKIP = ✓ -> STOP");
     } else if (kind == ProcKind::run || kind == ProcKind::chaos || kind == ProcKind::div) {
-      define(show(term), show(term));
+      define(term, term);
     }
     const auto places = process_operands(kind);
     if (!places) continue;
@@ -67,7 +65,7 @@ std::optional<std::string> show_definitions(
   for (auto definition = definitions.rbegin(); definition != definitions.rend(); ++definition) {
     text += *definition + "\n\n";
   }
-  return text + show(process);
+  return text + lay_out_process(context, process);
 }
 
 }  // namespace perentie::semantics

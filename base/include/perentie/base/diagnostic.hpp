@@ -48,6 +48,9 @@ class Diagnostics {
   /// Reports about the input as a whole.
   Diagnostic& report(const DiagnosticCode& code, std::string message);
 
+  /// Forgets everything reported: what comes next is about something else.
+  void clear();
+
   bool has_errors() const { return error_count_ > 0; }
   std::size_t error_count() const { return error_count_; }
   const std::vector<Diagnostic>& all() const { return diagnostics_; }

@@ -36,4 +36,8 @@ std::string show_value(const ShowContext& context, ValueId value);
 std::string show_process(const ShowContext& context, ProcId process,
                          std::size_t max_length = 10'000);
 
+/// A process term, and `name = body`, whole and broken into lines as FDR's printer does.
+std::string lay_out_process(const ShowContext& context, ProcId process);
+std::string lay_out_definition(const ShowContext& context, ProcId name, ProcId body);
+
 }  // namespace perentie::semantics

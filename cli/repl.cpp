@@ -1,0 +1,210 @@
+#include "repl.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "perentie/base/text.hpp"
+
+namespace perentie::cli {
+namespace {
+
+struct CommandInfo {
+  std::string_view word;
+  std::string_view arguments;
+  std::string_view help;
+};
+
+constexpr auto commands = std::to_array<CommandInfo>({
+    {"help", "", "this list"},
+    {"load", "FILE", "load a script; definitions made with `let` are forgotten"},
+    {"processes", "", "the processes of the script"},
+    {"quit", "", "leave (as Ctrl-D does)"},
+    {"reload", "", "load the same script again"},
+    {"type", "EXPR", "the type of an expression"},
+});
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+// A script of nothing, so that expressions can be evaluated before one is loaded.
+std::unique_ptr<semantics::Script> empty_script(Input& input) {
+  const auto file = input.sources.add("<nothing>", "");
+  return semantics::Script::load(*file, input.sources, input.diagnostics);
+}
+
+}  // namespace
+
+bool Repl::load(const std::string& path) {
+  auto session = std::make_unique<Session>();
+  path_ = path;
+  definitions_.clear();
+  if (const auto file = session->input.read(path)) {
+    session->script =
+        semantics::Script::load(*file, session->input.sources, session->input.diagnostics);
+  }
+  const bool ok = session->script != nullptr;
+  open(std::move(session));
+  return ok;
+}
+
+void Repl::forget_diagnostics(Input& input) {
+  input.diagnostics.clear();
+  console_.forget_printed();
+}
+
+void Repl::open(std::unique_ptr<Session> session) {
+  console_.print(session->input.diagnostics, session->input.sources);
+  forget_diagnostics(session->input);
+  if (!session->script) session->script = empty_script(session->input);
+  session_ = std::move(session);
+}
+
+std::string Repl::name() const {
+  return path_.empty() ? "perentie" : std::filesystem::path(path_).filename().string();
+}
+
+bool Repl::answer(std::string_view line) {
+  if (!session_) {
+    auto session = std::make_unique<Session>();
+    session->script = empty_script(session->input);
+    open(std::move(session));
+  }
+  const std::string_view text = trimmed(line);
+  if (text.empty() || text.starts_with("--")) return true;
+  if (text.front() == ':') return command(text.substr(1));
+  session_->script->set_limits(budget_.limits());
+  constexpr std::string_view let = "let ";
+  // `let d within e` is an expression.
+  if (text.starts_with(let) && text.find(" within ") == std::string_view::npos) {
+    define(std::string(text.substr(let.size())));
+  } else {
+    evaluate(std::string(text));
+  }
+  return true;
+}
+
+// Each `let` is in the scope of those before it, so earlier ones keep the names that they saw.
+std::string Repl::in_scope(const std::string& expression) const {
+  std::string text;
+  for (const std::string& definitions : definitions_) {
+    text += fmt::format("let\n{}\nwithin ", definitions);
+  }
+  return text + expression;
+}
+
+void Repl::report(bool answered) {
+  Input& input = session_->input;
+  console_.print(input.diagnostics, input.sources);
+  if (!answered) {
+    if (const auto limit = session_->script->limit()) {
+      console_.error(fmt::format("inconclusive: {}", base::describe(*limit)));
+    }
+  }
+  forget_diagnostics(input);
+}
+
+void Repl::evaluate(const std::string& expression) {
+  semantics::Script& script = *session_->script;
+  base::Diagnostics& diagnostics = session_->input.diagnostics;
+  const std::string text = in_scope(expression);
+  const auto type = script.type_of(text, diagnostics);
+  std::optional<std::string> value;
+  if (type == "Proc") {
+    if (const auto process = script.process(text, diagnostics)) {
+      value = script.definitions(*process, diagnostics);
+    }
+  } else if (type) {
+    value = script.evaluate(text, diagnostics);
+  }
+  if (value) console_.result(*value + '\n');
+  report(value.has_value());
+}
+
+void Repl::show_type(const std::string& expression) {
+  const auto type = session_->script->type_of(in_scope(expression), session_->input.diagnostics);
+  if (type) console_.result(fmt::format("{} :: {}\n", expression, *type));
+  report(true);
+}
+
+void Repl::define(const std::string& definitions) {
+  definitions_.push_back(definitions);
+  const bool ok =
+      session_->script->type_of(in_scope("true"), session_->input.diagnostics).has_value();
+  if (!ok) definitions_.pop_back();
+  report(true);
+}
+
+void Repl::show_processes() {
+  for (const std::string& process : session_->script->process_names()) {
+    console_.result(process + '\n');
+  }
+}
+
+void Repl::help() const {
+  console_.result("An expression is evaluated; `let f(x) = x + 1` adds a definition.\n");
+  for (const CommandInfo& c : commands) {
+    console_.result(fmt::format("  :{:<10} {:<5} {}\n", c.word, c.arguments, c.help));
+  }
+}
+
+// Commands may be cut short as long as it is clear which one is meant.
+bool Repl::command(std::string_view line) {
+  const std::size_t end = std::min(line.find(' '), line.size());
+  const std::string_view word = line.substr(0, end);
+  const std::string argument(trimmed(line.substr(end)));
+  std::vector<const CommandInfo*> meant;
+  for (const CommandInfo& c : commands) {
+    if (!word.empty() && c.word.starts_with(word)) meant.push_back(&c);
+  }
+  if (meant.size() != 1) {
+    console_.error(fmt::format("there is no command `:{}`; `:help` lists them", word));
+    return true;
+  }
+  const std::string_view chosen = meant.front()->word;
+  if (!meant.front()->arguments.empty() && argument.empty()) {
+    console_.error(fmt::format("`:{}` needs {}", chosen, meant.front()->arguments));
+    return true;
+  }
+  if (chosen == "quit") return false;
+  if (chosen == "help") help();
+  if (chosen == "load") load(argument);
+  if (chosen == "processes") show_processes();
+  if (chosen == "type") show_type(argument);
+  if (chosen == "reload") {
+    if (path_.empty()) {
+      console_.error("no script is loaded");
+    } else {
+      load(std::string(path_));
+    }
+  }
+  return true;
+}
+
+std::vector<std::string> Repl::completions(std::string_view word) const {
+  std::vector<std::string> found;
+  const auto add = [&](std::string_view candidate) {
+    if (candidate.starts_with(word)) found.emplace_back(candidate);
+  };
+  if (word.starts_with(":")) {
+    for (const CommandInfo& c : commands) add(fmt::format(":{}", c.word));
+  } else {
+    if (session_) {
+      for (const auto& definition : session_->script->types()) add(definition.name);
+    }
+    for (const semantics::BuiltinInfo& builtin : semantics::builtin_table) {
+      if (builtin.import == semantics::Import::no) add(builtin.name);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace perentie::cli

@@ -1,0 +1,52 @@
+// Repl: what the prompt does with a line. Reading lines is the caller's part (command_repl.cpp).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "console.hpp"
+#include "model.hpp"
+
+namespace perentie::cli {
+
+class Repl {
+ public:
+  Repl(const BudgetOptions& budget, Console& console) : budget_(budget), console_(console) {}
+
+  /// Loads a script and forgets the session's definitions. False if it has errors, which are
+  /// printed; the session is then empty (CSPM reference 8.3).
+  bool load(const std::string& path);
+  /// Answers one line. False: the user wants to leave.
+  bool answer(std::string_view line);
+  /// What a word that is being typed may become: commands after `:`, names of the session.
+  std::vector<std::string> completions(std::string_view word) const;
+  /// The script's name, for the prompt.
+  std::string name() const;
+
+ private:
+  struct Session {
+    Input input;
+    std::unique_ptr<semantics::Script> script;
+  };
+
+  void forget_diagnostics(Input& input);
+  void open(std::unique_ptr<Session> session);
+  void evaluate(const std::string& expression);
+  void show_type(const std::string& expression);
+  void define(const std::string& definitions);
+  void show_processes();
+  void help() const;
+  bool command(std::string_view line);
+  std::string in_scope(const std::string& expression) const;
+  void report(bool answered);
+
+  const BudgetOptions& budget_;
+  Console& console_;
+  std::string path_;
+  std::unique_ptr<Session> session_;
+  std::vector<std::string> definitions_;  // of `let`, each in the scope of those before it
+};
+
+}  // namespace perentie::cli
