@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -70,8 +71,46 @@ TEST(SharedModelsTest, NormalFormsAreThoseOfAnIndependentExplorer) {
 
 // Files whose tests do not hold, and why. One that begins to hold is a failure here, too.
 const std::map<std::string, std::string>& known_exceptions() {
-  static const std::map<std::string, std::string> exceptions{};
+  static const std::map<std::string, std::string> exceptions{
+      {"union.csp", "unions of sets are one set, whichever way they were formed"},
+  };
   return exceptions;
+}
+
+// Internal names are numbered anew: `i1564` is an artefact of the program that recorded it.
+std::string with_own_numbers(const std::string& text) {
+  const std::regex internal(R"(\bi[0-9]+\b)");
+  std::map<std::string, std::size_t> numbers;
+  std::string result;
+  auto at = text.begin();
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), internal);
+       it != std::sregex_iterator(); ++it) {
+    result.append(at, (*it)[0].first);
+    const auto number = numbers.emplace(it->str(), numbers.size()).first->second;
+    result.append("i").append(std::to_string(number));
+    at = (*it)[0].second;
+  }
+  return result.append(at, text.end());
+}
+
+// A process must print as one of its recorded texts, of which some were cut off at the end.
+std::string problem_of_process(TestScript& script, const fs::path& path, const std::string& name) {
+  base::Diagnostics diagnostics;
+  const auto process = script.script().process(name, diagnostics);
+  const auto text =
+      process ? script.script().definitions(*process, diagnostics) : std::optional<std::string>();
+  if (!text) return name + " has no value\n";
+  const std::string prefix = path.stem().string() + "-" + name + "-expected";
+  std::string recorded;
+  for (const auto& file : fs::directory_iterator(path.parent_path())) {
+    if (!file.path().filename().string().starts_with(prefix)) continue;
+    recorded = base::read_file(file.path().generic_string()).text.value_or("");
+    while (!recorded.empty() && std::isspace(static_cast<unsigned char>(recorded.back())) != 0) {
+      recorded.pop_back();
+    }
+    if (with_own_numbers(*text).starts_with(with_own_numbers(recorded))) return "";
+  }
+  return name + " prints\n" + *text + "\ninstead of\n" + recorded + "\n";
 }
 
 // What is wrong with the tests of a script; empty: nothing.
@@ -91,8 +130,7 @@ std::string problems(const fs::path& path, std::size_t& count) {
   const std::regex process(R"((^|\n)(procTest\w*)\s*=)");
   for (auto it = std::sregex_iterator(text.begin(), text.end(), process);
        it != std::sregex_iterator(); ++it, ++count) {
-    const std::string name = (*it)[2];
-    if (!script->evaluate(name)) found += name + " has no value\n";
+    found += problem_of_process(*script, path, (*it)[2]);
   }
   return found.empty() ? "" : found + script->messages();
 }
