@@ -40,7 +40,7 @@ class Refinement {
       partition_.split(changed_, signatures_, splits);
       for (const std::uint32_t s : changed_) is_changed_[s] = 0;
       changed_.clear();
-      for (const Partition::Split& split : splits) move_edges_into(split);
+      move_edges(splits);
     }
     return std::move(partition_);
   }
@@ -54,7 +54,16 @@ class Refinement {
   /// The edges of one state with one label into one block.
   struct Group {
     std::uint32_t count;
-    std::uint32_t moved_to;  // the group of those edges that lead into the new block in hand
+    std::uint32_t moved_into;  // the last new block that some of its edges turned out to lead into
+    std::uint32_t moved_to;    // and the group of those edges
+  };
+  struct MovedState {
+    std::uint32_t state;
+    Partition::Split split;
+  };
+  struct MovedEdge {
+    InEdge* edge;
+    Partition::Split split;
   };
 
   std::uint64_t hash(std::uint32_t label, std::uint32_t block) const {
@@ -77,7 +86,7 @@ class Refinement {
       for (const Edge& edge : lts.edges(State{s})) {
         if (edge.label != label) {
           label = edge.label;
-          groups_.push_back({0, none});
+          groups_.push_back({0, none, none});
           signatures_[s] += hash(label.value, 0);
         }
         ++groups_.back().count;
@@ -90,36 +99,40 @@ class Refinement {
     rows_[0] = 0;
   }
 
-  void move_edges_into(const Partition::Split& split) {
+  /// The round's new blocks state by state, so that memory can be fetched ahead over all of them.
+  void move_edges(std::span<const Partition::Split> splits) {
     constexpr std::size_t ahead = 8;
-    const std::span<const std::uint32_t> targets = partition_.members(split.block);
-    std::array<InEdge*, 64> batch;
+    moved_.clear();
+    for (const Partition::Split& split : splits) {
+      for (const std::uint32_t s : partition_.members(split.block)) moved_.push_back({s, split});
+    }
+    std::array<MovedEdge, 64> batch;
     std::size_t batched = 0;
     const auto flush = [&] {
-      for (std::size_t i = 0; i < batched; ++i) move_edge(*batch[i], split);
+      for (std::size_t i = 0; i < batched; ++i) move_edge(*batch[i].edge, batch[i].split);
       batched = 0;
     };
-    for (std::size_t i = 0; i < targets.size(); ++i) {
-      if (i + 2 * ahead < targets.size()) __builtin_prefetch(&rows_[targets[i + 2 * ahead]]);
-      if (i + ahead < targets.size()) __builtin_prefetch(&in_edges_[0] + rows_[targets[i + ahead]]);
-      const std::uint32_t target = targets[i];
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      if (i + 2 * ahead < moved_.size()) __builtin_prefetch(&rows_[moved_[i + 2 * ahead].state]);
+      if (i + ahead < moved_.size()) {
+        __builtin_prefetch(in_edges_.data() + rows_[moved_[i + ahead].state]);
+      }
+      const std::uint32_t target = moved_[i].state;
       for (std::uint32_t e = rows_[target]; e < rows_[target + std::size_t{1}]; ++e) {
         __builtin_prefetch(&groups_[in_edges_[e].group]);
         __builtin_prefetch(&signatures_[in_edges_[e].source]);
-        batch[batched++] = &in_edges_[e];
+        batch[batched++] = {&in_edges_[e], moved_[i].split};
         if (batched == batch.size()) flush();
       }
     }
     flush();
-    for (const std::uint32_t group : touched_) groups_[group].moved_to = none;
-    touched_.clear();
   }
 
   /// The edge led into `split.from` and leads into `split.block` now.
   void move_edge(InEdge& edge, const Partition::Split& split) {
     const std::uint32_t old_group = edge.group;
     std::uint64_t& signature = signatures_[edge.source];
-    if (groups_[old_group].moved_to == none) {
+    if (groups_[old_group].moved_into != split.block) {
       signature += hash(edge.label, split.block);
       change(edge.source);
       if (groups_[old_group].count == 1) {  // the group moves as a whole
@@ -127,8 +140,8 @@ class Refinement {
         return;
       }
       const std::uint32_t group = new_group();
+      groups_[old_group].moved_into = split.block;
       groups_[old_group].moved_to = group;
-      touched_.push_back(old_group);
     }
     edge.group = groups_[old_group].moved_to;
     ++groups_[edge.group].count;
@@ -140,12 +153,12 @@ class Refinement {
 
   std::uint32_t new_group() {
     if (free_groups_.empty()) {
-      groups_.push_back({0, none});
+      groups_.push_back({0, none, none});
       return static_cast<std::uint32_t>(groups_.size() - 1);
     }
     const std::uint32_t group = free_groups_.back();
     free_groups_.pop_back();
-    groups_[group] = {0, none};
+    groups_[group] = {0, none, none};
     return group;
   }
 
@@ -160,7 +173,7 @@ class Refinement {
   std::vector<InEdge> in_edges_;
   std::vector<Group> groups_;
   std::vector<std::uint32_t> free_groups_;
-  std::vector<std::uint32_t> touched_;  // groups with `moved_to`
+  std::vector<MovedState> moved_;  // in the round in hand
   std::vector<std::uint64_t> signatures_;
   std::vector<std::uint8_t> is_changed_;
   std::vector<std::uint32_t> changed_;  // states whose signature may have changed

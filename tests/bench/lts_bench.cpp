@@ -12,9 +12,11 @@
 
 #include "perentie/base/hash.hpp"
 #include "perentie/lts/aut.hpp"
+#include "perentie/lts/bisimulation.hpp"
 #include "perentie/lts/determinism.hpp"
 #include "perentie/lts/divergence.hpp"
 #include "perentie/lts/explore.hpp"
+#include "perentie/lts/hide.hpp"
 #include "perentie/lts/json.hpp"
 #include "perentie/lts/normalise.hpp"
 
@@ -114,6 +116,82 @@ void count_edges(benchmark::State& state, const lts::Lts& graph) {
   state.counters["edges/s"] = benchmark::Counter(static_cast<double>(graph.edge_count()),
                                                  benchmark::Counter::kIsIterationInvariantRate);
 }
+
+/// Dining philosophers: each sits, takes the left fork and the right, eats, puts the right back and the left, gets
+/// up. The label of event e of philosopher i is 2 + 7 * i + e; 7 philosophers have 279,934 states.
+struct Philosophers {
+  using State = std::uint64_t;
+
+  std::uint32_t count;
+
+  static std::uint32_t place(State s, std::uint32_t i) { return (s >> (4 * i)) & 15U; }
+  std::uint32_t after(std::uint32_t i) const { return i + 1 == count ? 0 : i + 1; }
+  std::uint32_t before(std::uint32_t i) const { return i == 0 ? count - 1 : i - 1; }
+  static bool holds_left(std::uint32_t at) { return at >= 2 && at <= 5; }
+  static bool holds_right(std::uint32_t at) { return at >= 3 && at <= 4; }
+
+  State initial() const { return 0; }
+  bool successors(State s, std::vector<lts::Transition<State>>& out) const {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint64_t at = place(s, i);
+      if (at == 1 && holds_right(place(s, before(i)))) continue;
+      if (at == 2 && holds_left(place(s, after(i)))) continue;
+      const std::uint64_t next = at == 6 ? 0 : at + 1;
+      out.push_back(
+          {Label{static_cast<std::uint32_t>(2 + 7 * i + at)}, s + ((next - at) << (4 * i))});
+    }
+    return true;
+  }
+  std::uint64_t state_hash(State s) const { return perentie::base::hash_mix(0, s); }
+  std::shared_ptr<const lts::LabelNames> label_names() const { return names(7 * count); }
+};
+
+/// Seven philosophers; `visible` of the seven events of each are not hidden: eating, then sitting.
+lts::Lts philosophers(int visible) {
+  Philosophers system{7};
+  return lts::hide_if(lts::explore(system).lts, [&](Label label) {
+    const std::uint32_t event = (label.value - 2) % 7;
+    return (event != 3 || visible < 1) && (event != 0 || visible < 2) && visible < 7;
+  });
+}
+
+using Reduction = lts::Quotient (*)(const lts::Lts&);
+
+void reduce(benchmark::State& state, const lts::Lts& graph, Reduction reduction) {
+  std::size_t states = 0;
+  for (auto _ : state) states = reduction(graph).lts.state_count();
+  count_edges(state, graph);
+  state.counters["states"] = static_cast<double>(graph.state_count());
+  state.counters["edges"] = static_cast<double>(graph.edge_count());
+  state.counters["reduced"] = static_cast<double>(states);
+}
+
+lts::Quotient strong(const lts::Lts& graph) { return lts::strong_bisimulation(graph); }
+
+template <Reduction reduction>
+void reduce_philosophers(benchmark::State& state) {
+  reduce(state, philosophers(static_cast<int>(state.range(0))), reduction);
+}
+BENCHMARK(reduce_philosophers<strong>)
+    ->ArgName("visible")
+    ->Arg(7)
+    ->Arg(2)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond);
+
+template <Reduction reduction>
+void reduce_random(benchmark::State& state) {
+  reduce(state,
+         random_lts(static_cast<std::uint32_t>(state.range(0)), 4,
+                    static_cast<std::uint32_t>(state.range(1))),
+         reduction);
+}
+BENCHMARK(reduce_random<strong>)
+    ->ArgNames({"states", "tau_percent"})
+    ->Args({250'000, 0})
+    ->Args({1'000'000, 20})
+    ->Args({2'500'000, 20})
+    ->Unit(benchmark::kMillisecond);
 
 void divergence(benchmark::State& state) {
   const lts::Lts graph = random_lts(1'000'000, 5, 20);
