@@ -70,6 +70,7 @@ void talk(Repl& repl, const Options& options) {
   rl_attempted_completion_function = complete;
   static char breaks[] = " \t\n()[]{}<>,;.|\\&+-*/=!?@^#\"'";
   rl_completer_word_break_characters = breaks;
+  rl_completion_append_character = 0;
   for (bool goes_on = true; goes_on;) {
     const std::string prompt = repl.name() + "> ";
     const std::unique_ptr<char, void (*)(void*)> line(readline(prompt.c_str()), std::free);

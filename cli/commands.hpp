@@ -17,6 +17,7 @@ struct Command {
 };
 
 Command add_monitor(CLI::App& program);
+Command add_check(CLI::App& program);
 Command add_lts(CLI::App& program);
 Command add_eval(CLI::App& program);
 Command add_typecheck(CLI::App& program);

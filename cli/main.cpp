@@ -72,7 +72,8 @@ ExitCode run(int argc, char** argv) {
       });
 
   std::vector<Command> commands;
-  for (const auto add : {add_monitor, add_lts, add_eval, add_typecheck, add_repl, add_dump}) {
+  for (const auto add :
+       {add_monitor, add_check, add_lts, add_eval, add_typecheck, add_repl, add_dump}) {
     commands.push_back(add(program));
   }
   Console console;

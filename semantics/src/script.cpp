@@ -1,5 +1,6 @@
 #include "perentie/semantics/script.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "evaluate/machine.hpp"
@@ -35,8 +36,10 @@ struct Script::Impl {
   std::optional<Machine> machine;
 
   bool prepare(base::Diagnostics& diagnostics);
+  std::shared_ptr<const lts::LabelNames> label_names() const;
   void load_prelude(base::Diagnostics& diagnostics);
   void mark_processes_by_type();
+  parser::ExprId prioritised(parser::ExprId process, parser::ExprId lower);
   enum class Expected : std::uint8_t { anything, process };
   parser::ExprId parse(std::string_view text, const std::string& origin, Expected expected,
                        base::Diagnostics& diagnostics);
@@ -109,6 +112,32 @@ bool Script::Impl::prepare(base::Diagnostics& diagnostics) {
   return true;
 }
 
+// `prioritise(process, <{}, lower>)`, as a part of the tree.
+parser::ExprId Script::Impl::prioritised(parser::ExprId process, parser::ExprId lower) {
+  const base::Span span = tree.exprs[process].span;
+  const auto list = [&](std::initializer_list<parser::ExprId> items) {
+    return tree.expr_lists.add(std::span(items.begin(), items.size()));
+  };
+  const auto collection = [&](parser::Collection kind, parser::ExprList items) {
+    return tree.exprs.add({span, parser::CollectionExpr{kind, items, {}}});
+  };
+  Resolution& resolution = resolver.result();
+  const auto symbol = std::ranges::find_if(resolution.symbols, [](const Symbol& s) {
+    return s.kind == SymbolKind::builtin && s.builtin == Builtin::prioritise;
+  });
+  const base::NameId name = symbol->name;
+  const parser::ExprId function =
+      tree.exprs.add({span, parser::NameExpr{{tree.name_lists.add(std::span(&name, 1))}}});
+  const parser::ExprId none = collection(parser::Collection::set, {});
+  const parser::ExprId order = collection(parser::Collection::sequence, list({none, lower}));
+  const parser::ExprId call =
+      tree.exprs.add({span, parser::ApplyExpr{function, list({process, order})}});
+  resolution.of_expr.resize(tree.exprs.size());
+  resolution.of_expr[function.value] =
+      SymbolId{static_cast<std::uint32_t>(symbol - resolution.symbols.begin())};
+  return call;
+}
+
 // Parses, resolves and infers an expression in the scope of the script; none if it is wrong.
 parser::ExprId Script::Impl::parse(std::string_view text, const std::string& origin,
                                    Expected expected, base::Diagnostics& diagnostics) {
@@ -150,7 +179,12 @@ std::optional<std::string> Script::evaluate(std::string_view expression,
   const parser::ExprId expr =
       impl_->parse(expression, origin, Impl::Expected::anything, diagnostics);
   if (!expr) return std::nullopt;
-  const Address entry = impl_->lowering->expression(expr);
+  return evaluate(expr, diagnostics);
+}
+
+std::optional<std::string> Script::evaluate(parser::ExprId expression,
+                                            base::Diagnostics& diagnostics) {
+  const Address entry = impl_->lowering->expression(expression);
   impl_->machine->extend_globals();
   const std::optional<ValueId> value = impl_->machine->run(entry, diagnostics);
   if (!value) return std::nullopt;
@@ -162,7 +196,13 @@ std::optional<ProcId> Script::process(std::string_view expression, base::Diagnos
   const parser::ExprId expr =
       impl_->parse(expression, origin, Impl::Expected::process, diagnostics);
   if (!expr) return std::nullopt;
-  const Address entry = impl_->lowering->process_expression(expr);
+  return process(expr, {}, diagnostics);
+}
+
+std::optional<ProcId> Script::process(parser::ExprId expression, parser::ExprId tau_priority,
+                                      base::Diagnostics& diagnostics) {
+  if (tau_priority) expression = impl_->prioritised(expression, tau_priority);
+  const Address entry = impl_->lowering->process_expression(expression);
   impl_->machine->extend_globals();
   const std::optional<ValueId> value = impl_->machine->run(entry, diagnostics);
   if (!value) return std::nullopt;
@@ -263,8 +303,11 @@ bool TermSystem::successors(State state, std::vector<lts::Transition<State>>& ou
 std::uint64_t TermSystem::state_hash(State state) const { return base::hash_mix(0, state.value); }
 
 std::shared_ptr<const lts::LabelNames> TermSystem::label_names() const {
-  const EventTable& events = impl_->script.events;
-  const ShowContext context = impl_->script.machine->show_context();
+  return impl_->script.label_names();
+}
+
+std::shared_ptr<const lts::LabelNames> Script::Impl::label_names() const {
+  const ShowContext context = machine->show_context();
   auto names = std::make_shared<lts::LabelNames>();
   names->emplace_back(lts::tau_name);
   names->emplace_back(lts::tick_name);

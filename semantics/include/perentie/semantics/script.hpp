@@ -1,8 +1,8 @@
 // Script: a CSPM file, loaded and ready to be asked. The public face of this library.
 //
-// Loading reads, parses, resolves, infers types and lowers (steps 1-5); values and processes are evaluated on
-// demand (step 6), and `TermSystem` gives a process its transitions (the step rules), so that
-// `lts::explore` can make an LTS of it.
+// Loading reads, parses, resolves, infers types and lowers (steps 1-5); values and processes are
+// evaluated on demand (step 6), and `TermSystem` gives a process its transitions (the step rules),
+// so that `lts::explore` can make an LTS of it.
 #pragma once
 
 #include <cstdint>
@@ -51,6 +51,12 @@ class Script {
   /// The process that an expression stands for.
   std::optional<ProcId> process(std::string_view expression, base::Diagnostics& diagnostics,
                                 const std::string& origin = "<expression>");
+
+  /// The same of expressions in the script itself.
+  std::optional<std::string> evaluate(parser::ExprId expression, base::Diagnostics& diagnostics);
+  /// With `tau_priority`, a set of events: τ and ✓ have priority over these (2.6.7).
+  std::optional<ProcId> process(parser::ExprId expression, parser::ExprId tau_priority,
+                                base::Diagnostics& diagnostics);
 
   /// The transitions of a process by the step rules. The script must outlive the system.
   TermSystem terms(ProcId process, base::Diagnostics& diagnostics);

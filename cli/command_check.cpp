@@ -1,0 +1,230 @@
+// perentie check: the assertions of a script, in the order of the file.
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "model.hpp"
+#include "perentie/base/text.hpp"
+#include "perentie/semantics/check.hpp"
+
+namespace perentie::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using semantics::CheckResult;
+using semantics::Witness;
+using Outcome = CheckResult::Outcome;
+
+struct Options {
+  std::string file;
+  std::vector<std::size_t> numbers;
+  std::string format = "text";
+  BudgetOptions budget;
+};
+
+std::string_view word(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::holds:
+      return "holds";
+    case Outcome::fails:
+      return "fails";
+    case Outcome::inconclusive:
+      return "inconclusive";
+    case Outcome::error:
+      return "error";
+  }
+  return {};
+}
+
+std::string_view word(Witness::Kind kind) {
+  switch (kind) {
+    case Witness::Kind::event:
+      return "event";
+    case Witness::Kind::acceptance:
+      return "acceptance";
+    case Witness::Kind::divergence:
+      return "divergence";
+    case Witness::Kind::deadlock:
+      return "deadlock";
+    case Witness::Kind::nondeterminism:
+      return "nondeterminism";
+    case Witness::Kind::missing_event:
+      return "missing event";
+  }
+  return {};
+}
+
+std::string set_of(const std::vector<std::string>& events) {
+  return fmt::format("{{{}}}", fmt::join(events, ", "));
+}
+
+// What the process does after the trace that it must not do.
+std::string behaviour(const Witness& w) {
+  switch (w.kind) {
+    case Witness::Kind::event:
+      return fmt::format("it performs {}", w.event);
+    case Witness::Kind::acceptance:
+      return fmt::format("it offers only {}", set_of(w.offered));
+    case Witness::Kind::divergence:
+      return "it diverges: it performs τ for ever";
+    case Witness::Kind::deadlock:
+      return !w.trace.empty() && w.trace.back() == lts::tick_name
+                 ? "it has terminated, which counts as a deadlock"
+                 : "it is deadlocked";
+    case Witness::Kind::nondeterminism:
+      return fmt::format("it may perform {} and may refuse it, offering only {}", w.event,
+                         set_of(w.offered));
+    case Witness::Kind::missing_event:
+      return w.offered.empty()
+                 ? fmt::format("it cannot perform {}", w.event)
+                 : fmt::format("it may refuse {}, offering only {}", w.event, set_of(w.offered));
+  }
+  return {};
+}
+
+std::string expectation(const Witness& w) {
+  if (w.kind == Witness::Kind::event && !w.allowed.empty()) {
+    return fmt::format("the specification allows {}", set_of(w.allowed.front()));
+  }
+  if (w.kind != Witness::Kind::acceptance) return {};
+  std::vector<std::string> sets;
+  for (const auto& acceptance : w.allowed) sets.push_back(set_of(acceptance));
+  return sets.empty()
+             ? "the specification is never stable here"
+             : fmt::format("the specification offers at least {}", fmt::join(sets, " or "));
+}
+
+std::string as_text(std::size_t number, std::size_t line, const std::string& assertion,
+                    const CheckResult& result) {
+  std::string text =
+      fmt::format("{}. {}: {}  (line {}; {} states, {} transitions, {:.2f} s)\n", number, assertion,
+                  word(result.outcome), line, base::with_thousands(result.counts.states),
+                  base::with_thousands(result.counts.transitions), result.seconds);
+  if (result.limit) text += fmt::format("   {}\n", base::describe(*result.limit));
+  if (!result.witness) return text;
+  const Witness& w = *result.witness;
+  text += fmt::format("   after <{}>\n   {}\n", fmt::join(w.trace, ", "), behaviour(w));
+  if (const std::string allowed = expectation(w); !allowed.empty()) {
+    text += fmt::format("   {}\n", allowed);
+  }
+  if (!w.state.empty()) text += fmt::format("   in the state {}\n", w.state);
+  return text;
+}
+
+Json as_json(std::size_t line, const std::string& assertion, const CheckResult& result) {
+  Json json{{"line", line},
+            {"assertion", assertion},
+            {"outcome", word(result.outcome)},
+            {"visited_states", result.counts.states},
+            {"visited_transitions", result.counts.transitions},
+            {"visited_plys", result.counts.plys},
+            {"seconds", result.seconds}};
+  if (result.limit) json["limit"] = base::describe(*result.limit);
+  if (result.witness) {
+    const Witness& w = *result.witness;
+    Json witness{{"kind", word(w.kind)}, {"trace", w.trace}};
+    if (!w.event.empty()) witness["event"] = w.event;
+    if (w.kind == Witness::Kind::acceptance || !w.offered.empty()) witness["offered"] = w.offered;
+    if (!w.allowed.empty()) witness["allowed"] = w.allowed;
+    if (!w.state.empty()) witness["state"] = w.state;
+    json["counterexample"] = std::move(witness);
+  }
+  return json;
+}
+
+// The worst of the outcomes, as an exit code: an error, then a claim that fails, then none known.
+ExitCode worse(ExitCode code, Outcome outcome) {
+  constexpr ExitCode order[] = {ExitCode::ok, ExitCode::inconclusive, ExitCode::refuted,
+                                ExitCode::model_error};
+  const ExitCode own = outcome == Outcome::holds          ? ExitCode::ok
+                       : outcome == Outcome::fails        ? ExitCode::refuted
+                       : outcome == Outcome::inconclusive ? ExitCode::inconclusive
+                                                          : ExitCode::model_error;
+  return std::max(code, own, [&](ExitCode a, ExitCode b) {
+    return std::ranges::find(order, a) < std::ranges::find(order, b);
+  });
+}
+
+// The numbers to check, from 1: all, unless some were chosen.
+std::optional<std::vector<std::size_t>> chosen(const Options& options, std::size_t count,
+                                               const Console& console) {
+  std::vector<std::size_t> numbers = options.numbers;
+  if (numbers.empty()) {
+    for (std::size_t n = 1; n <= count; ++n) numbers.push_back(n);
+  }
+  for (const std::size_t n : numbers) {
+    if (n >= 1 && n <= count) continue;
+    console.error(fmt::format("there is no assertion {}: the script has {}", n, count));
+    return std::nullopt;
+  }
+  return numbers;
+}
+
+ExitCode run(const Options& options, Console& console) {
+  Input input;
+  ExitCode code = ExitCode::ok;
+  const auto script = load_script(options.file, input, console, code);
+  if (script == nullptr) return code;
+  const auto assertions = semantics::assertions_of(script->tree());
+  const auto numbers = chosen(options, assertions.size(), console);
+  if (!numbers) return ExitCode::usage;
+  if (assertions.empty()) console.note("the script has no assertions");
+  lts::ExploreOptions exploration{.limits = options.budget.limits()};
+  exploration.progress = [&console](const lts::ExploreProgress& p) { console.progress(p); };
+  code = ExitCode::ok;
+  Json list = Json::array();
+  for (const std::size_t number : *numbers) {
+    const semantics::ScriptAssertion& assertion = assertions[number - 1];
+    const CheckResult result = semantics::check(*script, assertion, exploration, input.diagnostics);
+    console.clear_progress();
+    console.print(input.diagnostics, input.sources);
+    code = worse(code, result.outcome);
+    const std::size_t line = input.sources.position(assertion.span.begin).line;
+    if (options.format == "json") {
+      list.push_back(as_json(line, assertion.text, result));
+    } else {
+      console.result(as_text(number, line, assertion.text, result));
+    }
+    if (interrupted().load()) break;
+  }
+  for (const std::string& compression : script->compressions_taken_as_identity()) {
+    console.note(
+        fmt::format("`{}` is not applied yet: no outcome depends on it, the number of "
+                    "states does",
+                    compression));
+  }
+  if (options.format == "json") {
+    const Json report{
+        {"schema", "perentie.check/1"}, {"file", options.file}, {"assertions", std::move(list)}};
+    console.result(report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  }
+  return code;
+}
+
+}  // namespace
+
+Command add_check(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app = program.add_subcommand("check", "Check the assertions of a script");
+  app->add_option("FILE", options->file, "The CSPM script")->required();
+  app->add_option("-a,--assertion", options->numbers,
+                  "Only the assertion of this number, from 1; may be given several times")
+      ->type_name("N");
+  app->add_option("--format", options->format, "text or json")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
+  options->budget.add_to(*app);
+  app->footer(
+      "Examples:\n"
+      "  perentie check corpus/check/forms.csp\n"
+      "  perentie check corpus/check/forms.csp -a 2 --format json\n"
+      "\n"
+      "Exit codes: 0 all hold; 1 one fails; 3 one cannot be checked; 4 none fails, but a budget\n"
+      "ran out.");
+  return {app, [options](Console& console) { return run(*options, console); }};
+}
+
+}  // namespace perentie::cli

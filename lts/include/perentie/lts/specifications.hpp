@@ -1,0 +1,73 @@
+// What an implementation is checked against: specifications as deterministic automata whose nodes
+// say which acceptances and divergences are allowed.
+//
+// A `Specification` has nodes, numbered from 0, the initial one. `next` follows an event or ✓;
+// without a successor the event is an error. `accepts` is asked of stable states with the labels
+// that they offer, ascending; `allows_divergence` of states that diverge.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "perentie/lts/normalise.hpp"
+
+namespace perentie::lts {
+
+/// Refinement of a normal form: each acceptance must include a minimal one (CSPM reference 5.2.2).
+/// The normal form must outlive it, and has acceptances unless only traces are compared.
+class NormalSpecification {
+ public:
+  explicit NormalSpecification(const NormalLts& normal) : normal_(&normal) {}
+
+  std::optional<State> next(State node, Label label) const {
+    const auto edges = normal_->lts.edges(node, label);
+    return edges.empty() ? std::nullopt : std::optional(edges.front().target);
+  }
+  bool accepts(State node, std::span<const Label> offered) const {
+    return std::ranges::any_of(normal_->acceptances->of(node), [&](AcceptanceId id) {
+      return std::ranges::includes(offered, normal_->acceptances->labels(id));
+    });
+  }
+  bool allows_divergence(State node) const { return normal_->divergent[node.value]; }
+
+ private:
+  const NormalLts* normal_;
+};
+
+/// Determinism as a refinement: what is possible after a trace must not be refused after it, and
+/// nothing may diverge (5.3.6). The normal form is that of the implementation itself.
+class DeterministicSpecification {
+ public:
+  explicit DeterministicSpecification(const NormalLts& normal) : normal_(&normal) {}
+
+  std::optional<State> next(State node, Label label) const {
+    return NormalSpecification(*normal_).next(node, label);
+  }
+  bool accepts(State node, std::span<const Label> offered) const {
+    return std::ranges::all_of(normal_->lts.edges(node), [&](const Edge& edge) {
+      return std::ranges::binary_search(offered, edge.label);
+    });
+  }
+  static bool allows_divergence(State) { return false; }
+
+ private:
+  const NormalLts* normal_;
+};
+
+/// Deadlock freedom: every stable state offers something; termination is a deadlock (5.3.1, 5.3.2).
+struct DeadlockFreedom {
+  static std::optional<State> next(State node, Label) { return node; }
+  static bool accepts(State, std::span<const Label> offered) { return !offered.empty(); }
+  static bool allows_divergence(State) { return false; }
+};
+
+/// Divergence freedom: everything else is allowed (5.3.3).
+struct DivergenceFreedom {
+  static std::optional<State> next(State node, Label) { return node; }
+  static bool accepts(State, std::span<const Label>) { return true; }
+  static bool allows_divergence(State) { return false; }
+};
+
+}  // namespace perentie::lts

@@ -1,0 +1,272 @@
+#include "perentie/semantics/check.hpp"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "perentie/base/overload.hpp"
+#include "perentie/lts/normalise.hpp"
+#include "perentie/lts/specifications.hpp"
+#include "perentie/semantics/diagnostic_codes.hpp"
+
+namespace perentie::semantics {
+namespace {
+
+using base::overload;
+using lts::Label;
+using lts::SemanticModel;
+using parser::ExprId;
+using Outcome = CheckResult::Outcome;
+
+class Checker {
+ public:
+  Checker(Script& script, const ScriptAssertion& assertion, const lts::ExploreOptions& options,
+          base::Diagnostics& diagnostics)
+      : script_(script), assertion_(assertion), options_(options), diagnostics_(diagnostics) {}
+
+  CheckResult run() {
+    const auto start = std::chrono::steady_clock::now();
+    script_.set_limits(options_.limits);
+    std::visit([&](const auto& claim) { check(claim); }, assertion_.assertion.claim);
+    const bool is_decided = result_.outcome == Outcome::holds || result_.outcome == Outcome::fails;
+    if (is_decided && assertion_.assertion.negated) {
+      result_.outcome = result_.outcome == Outcome::holds ? Outcome::fails : Outcome::holds;
+    }
+    result_.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::move(result_);
+  }
+
+ private:
+  using Found = lts::Counterexample<ProcId>;
+
+  // --- Ends
+  // ---------------------------------------------------------------------------------------
+
+  void stop(const std::optional<base::LimitReached>& limit) {
+    result_.outcome = limit ? Outcome::inconclusive : Outcome::error;
+    result_.limit = limit;
+  }
+
+  void refuse(std::string_view what) {
+    diagnostics_.report(codes::not_supported, assertion_.span,
+                        fmt::format("{} is not supported", what));
+    result_.outcome = Outcome::error;
+  }
+
+  void refute(Witness witness) {
+    result_.outcome = Outcome::fails;
+    result_.witness = std::move(witness);
+  }
+
+  // --- Processes
+  // ----------------------------------------------------------------------------------
+
+  std::optional<ProcId> process(ExprId expr) {
+    const auto found =
+        script_.process(expr, assertion_.assertion.options.tau_priority, diagnostics_);
+    if (!found) stop(script_.limit());
+    return found;
+  }
+
+  std::optional<lts::NormalLts> normal_form(ProcId process, bool with_acceptances) {
+    TermSystem terms = script_.terms(process, diagnostics_);
+    const auto exploration = lts::explore(terms, options_);
+    if (!exploration.complete()) {
+      stop(exploration.limit ? exploration.limit : terms.limit());
+      return std::nullopt;
+    }
+    auto normalisation = lts::normalise(
+        exploration.lts, {.limits = options_.limits, .acceptances = with_acceptances});
+    if (!normalisation.complete()) {
+      stop(normalisation.limit);
+      return std::nullopt;
+    }
+    return std::move(normalisation.normal);
+  }
+
+  std::vector<std::string> words(std::span<const Label> labels) const {
+    std::vector<std::string> found;
+    for (const Label label : labels) found.push_back((*names_)[label.value]);
+    return found;
+  }
+
+  // Compares a process with a specification. `explain` makes a witness of a counterexample.
+  template <class Specification, class Explain>
+  void refine(const Specification& specification, ProcId process, SemanticModel model,
+              Explain explain) {
+    TermSystem terms = script_.terms(process, diagnostics_);
+    const auto found = lts::refine(specification, terms, model, options_);
+    result_.counts = found.counts;
+    if (!found.counterexample && !found.complete()) {
+      stop(found.limit ? found.limit : terms.limit());
+      return;
+    }
+    result_.outcome = Outcome::holds;
+    if (!found.counterexample) return;
+    const Found& counterexample = *found.counterexample;
+    names_ = terms.label_names();
+    Witness witness{.kind = Witness::Kind::event,
+                    .trace = words(counterexample.trace),
+                    .state = script_.show(counterexample.states.back())};
+    switch (counterexample.kind) {
+      case Found::Kind::event:
+        witness.event = (*names_)[counterexample.event.value];
+        break;
+      case Found::Kind::acceptance:
+        witness.kind = Witness::Kind::acceptance;
+        witness.offered = words(counterexample.offered);
+        break;
+      case Found::Kind::divergence:
+        witness.kind = Witness::Kind::divergence;
+        break;
+    }
+    explain(counterexample, witness);
+    refute(std::move(witness));
+  }
+
+  // --- Claims
+  // -------------------------------------------------------------------------------------
+
+  static std::optional<SemanticModel> semantic_model(parser::Model model) {
+    switch (model) {
+      case parser::Model::traces:
+        return SemanticModel::traces;
+      case parser::Model::failures:
+        return SemanticModel::failures;
+      case parser::Model::failures_divergences:
+        return SemanticModel::failures_divergences;
+      default:
+        return std::nullopt;
+    }
+  }
+
+  // The model in which a property is to be checked: failures-divergences unless it is said (2.6).
+  static std::optional<SemanticModel> model_of(const std::optional<parser::Model>& said) {
+    return said ? semantic_model(*said) : SemanticModel::failures_divergences;
+  }
+
+  void check(const parser::RefinementAssertion& claim) {
+    const auto model = semantic_model(claim.model);
+    if (!model) return refuse("refinement in this model");
+    const auto specification = process(claim.specification);
+    if (!specification) return;
+    const auto implementation = process(claim.implementation);
+    if (!implementation) return;
+    const auto normal = normal_form(*specification, *model != SemanticModel::traces);
+    if (!normal) return;
+    refine(lts::NormalSpecification(*normal), *implementation, *model,
+           [&](const Found& found, Witness& witness) {
+             if (found.kind == Found::Kind::acceptance) {
+               for (const lts::AcceptanceId id : normal->acceptances->of(found.node)) {
+                 witness.allowed.push_back(words(normal->acceptances->labels(id)));
+               }
+             } else if (found.kind == Found::Kind::event) {
+               std::vector<Label> labels;
+               for (const lts::Edge& edge : normal->lts.edges(found.node)) {
+                 labels.push_back(edge.label);
+               }
+               witness.allowed.push_back(words(labels));
+             }
+           });
+  }
+
+  void check(const parser::PropertyAssertion& claim) {
+    const auto model = model_of(claim.model);
+    const bool is_divergence = claim.property == parser::Property::divergence_free;
+    if (!model || *model == SemanticModel::traces ||
+        (is_divergence && *model != SemanticModel::failures_divergences)) {
+      return refuse("this property in this model");
+    }
+    const auto implementation = process(claim.process);
+    if (!implementation) return;
+    switch (claim.property) {
+      case parser::Property::deadlock_free:
+        return refine(lts::DeadlockFreedom{}, *implementation, *model,
+                      [](const Found& found, Witness& witness) {
+                        if (found.kind == Found::Kind::acceptance) {
+                          witness.kind = Witness::Kind::deadlock;
+                        }
+                      });
+      case parser::Property::divergence_free:
+        return refine(lts::DivergenceFreedom{}, *implementation, *model,
+                      [](const Found&, Witness&) {});
+      case parser::Property::deterministic:
+        return check_determinism(*implementation, *model);
+    }
+  }
+
+  void check_determinism(ProcId implementation, SemanticModel model) {
+    const auto normal = normal_form(implementation, false);
+    if (!normal) return;
+    refine(lts::DeterministicSpecification(*normal), implementation, model,
+           [&](const Found& found, Witness& witness) {
+             if (found.kind != Found::Kind::acceptance) return;
+             witness.kind = Witness::Kind::nondeterminism;
+             for (const lts::Edge& edge : normal->lts.edges(found.node)) {
+               if (std::ranges::binary_search(found.offered, edge.label)) continue;
+               witness.event = (*names_)[edge.label.value];
+               break;
+             }
+           });
+  }
+
+  // CSPM reference 5.3.8, on the normal form.
+  void check(const parser::HasTraceAssertion& claim) {
+    const auto model = model_of(claim.model);
+    if (!model) return refuse("has trace in this model");
+    std::vector<std::string> trace;
+    for (const ExprId event : script_.tree().list(claim.trace)) {
+      const auto name = script_.evaluate(event, diagnostics_);
+      if (!name) return stop(script_.limit());
+      trace.push_back(*name);
+    }
+    const auto implementation = process(claim.process);
+    if (!implementation) return;
+    const auto normal = normal_form(*implementation, *model != SemanticModel::traces);
+    if (!normal) return;
+    names_ = normal->lts.shared_label_names();
+    lts::State node{0};
+    result_.outcome = Outcome::holds;
+    result_.counts = {1, 1, 1};
+    for (std::size_t i = 0; i < trace.size(); ++i) {
+      const std::vector<std::string> performed(trace.begin(),
+                                               trace.begin() + static_cast<std::ptrdiff_t>(i));
+      if (*model == SemanticModel::failures_divergences && normal->divergent[node.value]) {
+        return refute({.kind = Witness::Kind::divergence, .trace = performed});
+      }
+      Witness missing{.kind = Witness::Kind::missing_event, .trace = performed, .event = trace[i]};
+      const auto label = normal->lts.find_label(trace[i]);
+      const auto edges = label ? normal->lts.edges(node, *label) : std::span<const lts::Edge>{};
+      if (edges.empty()) return refute(std::move(missing));
+      if (*model != SemanticModel::traces) {
+        for (const lts::AcceptanceId id : normal->acceptances->of(node)) {
+          const auto offered = normal->acceptances->labels(id);
+          if (std::ranges::binary_search(offered, *label)) continue;
+          missing.offered = words(offered);
+          return refute(std::move(missing));
+        }
+      }
+      node = edges.front().target;
+      ++result_.counts.states;
+      ++result_.counts.transitions;
+      ++result_.counts.plys;
+    }
+  }
+
+  Script& script_;
+  const ScriptAssertion& assertion_;
+  const lts::ExploreOptions& options_;
+  base::Diagnostics& diagnostics_;
+  std::shared_ptr<const lts::LabelNames> names_;
+  CheckResult result_{.outcome = Outcome::error};
+};
+
+}  // namespace
+
+CheckResult check(Script& script, const ScriptAssertion& assertion,
+                  const lts::ExploreOptions& options, base::Diagnostics& diagnostics) {
+  return Checker(script, assertion, options, diagnostics).run();
+}
+
+}  // namespace perentie::semantics
