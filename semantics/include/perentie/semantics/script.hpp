@@ -24,6 +24,8 @@
 namespace perentie::semantics {
 
 class TermSystem;
+struct MachineCompilation;
+struct MachineOptions;
 
 class Script {
  public:
@@ -60,6 +62,9 @@ class Script {
 
   /// The transitions of a process by the step rules. The script must outlive the system.
   TermSystem terms(ProcId process, base::Diagnostics& diagnostics);
+  /// The same process as a compiled machine (`machine.hpp`), where that is worth it. Nothing is
+  /// reported: without a machine the step rules are to be used.
+  MachineCompilation machine(ProcId process, const MachineOptions& options);
 
   /// A process term as FDR prints it, cut to `max_length` characters.
   std::string show(ProcId process, std::size_t max_length = 200) const;
