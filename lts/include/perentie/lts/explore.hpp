@@ -108,7 +108,8 @@ class VisitedStates {
   base::UniqueIndex index_;
 };
 
-template <TransitionSystem System>
+/// The search itself. `Rows` takes the edges of one state after the other, as `LtsRowBuilder` does.
+template <TransitionSystem System, class Rows>
 class Explorer {
  public:
   using S = typename System::State;
@@ -120,14 +121,29 @@ class Explorer {
         visited_(system, std::max<std::uint64_t>(
                              options.limits.max_states.value_or(State::none_value), 1)) {}
 
-  Exploration<S> run() && {
+  void run() {
     visited_.add(system_.initial());
     while (rows_.row_count() < visited_.size() && expand_block()) {
     }
+  }
+
+  Exploration<S> exploration() && {
     const std::size_t expanded = rows_.row_count();
     Lts lts = std::move(rows_).finish(State{0}, visited_.size(), system_.label_names());
     return {std::move(lts), std::move(visited_).take(), expanded, fired_, limit_, failed_};
   }
+
+  /// What there is to say so far.
+  ExploreProgress progress() const {
+    return {visited_.size(),
+            fired_,
+            ply_,
+            visited_.size() - rows_.row_count(),
+            peak_bytes(0),
+            watch_.budget().elapsed_seconds()};
+  }
+  std::optional<base::LimitReached> limit() const { return limit_; }
+  bool failed() const { return failed_; }
 
  private:
   /// So many states are expanded together that the look-ups of their successors can wait for memory
@@ -199,8 +215,7 @@ class Explorer {
     const double now = watch_.budget().elapsed_seconds();
     if (!options_.progress || now - last_report_ < seconds_between_reports) return;
     last_report_ = now;
-    options_.progress(
-        {visited_.size(), fired_, ply_, visited_.size() - rows_.row_count(), peak_bytes(0), now});
+    options_.progress(progress());
   }
 
   std::uint64_t peak_bytes(std::size_t more) const {
@@ -213,7 +228,7 @@ class Explorer {
   const ExploreOptions& options_;
   Watch watch_;
   VisitedStates<System> visited_;
-  LtsRowBuilder rows_;
+  Rows rows_;
   std::vector<Transition<S>> successors_;  // of the states in work
   std::vector<std::size_t> row_ends_;      // where the successors of each end
   std::vector<std::uint64_t> hashes_;      // of the successors
@@ -228,7 +243,9 @@ class Explorer {
 /// Explores everything that can be reached from `system.initial()`.
 template <TransitionSystem System>
 Exploration<typename System::State> explore(System& system, const ExploreOptions& options = {}) {
-  return Explorer<System>(system, options).run();
+  Explorer<System, LtsRowBuilder> explorer(system, options);
+  explorer.run();
+  return std::move(explorer).exploration();
 }
 
 }  // namespace perentie::lts

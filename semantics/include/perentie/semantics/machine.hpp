@@ -1,0 +1,196 @@
+// Compiled machines: a process as leaf LTSs and the rules by which they synchronise.
+//
+// The parallel operators, hiding and renaming above the recursion of a process stay in place while
+// it runs, so they are compiled away: a state is one state for each leaf, packed into a few words,
+// and a rule says which leaves perform which events together and what the whole then performs.
+// Everything else is a leaf, explored by the step rules. Reachable states and edges are those of
+// the step rules; the same transition may fire less often. FDR calls this a supercombinator (CSPM
+// reference 6.1; Gibson-Robinson et al., FDR3, TACAS 2014).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "perentie/base/check.hpp"
+#include "perentie/base/hash.hpp"
+#include "perentie/base/limits.hpp"
+#include "perentie/lts/transition_system.hpp"
+
+namespace perentie::semantics {
+
+struct MachineOptions {
+  /// Time and cancellation bound the compilation; the rest bounds each leaf.
+  base::Limits limits = {};
+  /// Larger leaves are left to the step rules, together with the whole process.
+  std::uint64_t max_leaf_states = 100'000;
+  /// The same for processes with more rules.
+  std::size_t max_rules = 1'000'000;
+  /// The same for processes with fewer leaves, which a machine does not make faster.
+  std::size_t min_leaves = 2;
+};
+
+/// The tables of a machine, laid out for the computation of successors.
+struct CompiledMachine {
+  /// Where the state of a leaf lies in the words of a packed state, and its first row in the
+  /// tables.
+  struct Leaf {
+    std::uint32_t word;
+    std::uint32_t shift;
+    std::uint64_t mask;  ///< after shifting to the right
+    std::uint32_t first_row;
+  };
+  /// Something that the leaf that leads rules can do: try each rule of the run.
+  struct Lead {
+    std::uint64_t change;  ///< of the leaf's word, by exclusive or
+    std::uint32_t first_rule;
+    std::uint32_t end_rule;
+  };
+  /// Something that a leaf can do when another leaf leads. `port` numbers its events.
+  struct Follow {
+    std::uint64_t change;
+    std::uint32_t port;
+  };
+  struct Partner {
+    std::uint32_t leaf;
+    std::uint32_t port;
+  };
+  struct Rule {
+    lts::Label event;  ///< of the whole
+    std::uint32_t first_partner;
+    std::uint32_t end_partner;
+  };
+
+  std::vector<Leaf> leaves;
+  std::vector<std::uint32_t> leaders;      ///< leaves that lead some rule
+  std::vector<std::uint32_t> lead_rows;    ///< by row: offsets into `leads`, one more than rows
+  std::vector<std::uint32_t> follow_rows;  ///< by row: offsets into `follows`, one more than rows
+  std::vector<Lead> leads;
+  std::vector<Follow> follows;  ///< of each row, by port
+  std::vector<Rule> rules;
+  std::vector<Partner> partners;
+  std::vector<std::uint64_t> initial;  ///< packed
+  std::shared_ptr<const lts::LabelNames> label_names;
+
+  /// The words of a packed state.
+  std::size_t width() const { return initial.size(); }
+  std::uint64_t memory_bytes() const;
+};
+
+struct MachineCompilation {
+  /// Nothing: the step rules are to be used, or `limit` was reached.
+  std::optional<CompiledMachine> machine;
+  std::optional<base::LimitReached> limit;  ///< time or cancellation
+};
+
+/// A machine with states of `words` words as a `lts::TransitionSystem`. Keeps a reference.
+template <std::size_t words>
+class MachineSystem {
+ public:
+  using State = std::array<std::uint64_t, words>;
+  using Steps = std::vector<lts::Transition<State>>;
+
+  explicit MachineSystem(const CompiledMachine& machine) : machine_(&machine) {}
+
+  State initial() const {
+    State state{};
+    std::copy(machine_->initial.begin(), machine_->initial.end(), state.begin());
+    return state;
+  }
+
+  bool successors(const State& state, Steps& out) const {
+    for (const std::uint32_t leader : machine_->leaders) {
+      const CompiledMachine::Leaf& leaf = machine_->leaves[leader];
+      const std::size_t row = row_of(leaf, state);
+      const std::uint32_t end = machine_->lead_rows[row + 1];
+      for (std::uint32_t i = machine_->lead_rows[row]; i < end; ++i) {
+        const CompiledMachine::Lead& lead = machine_->leads[i];
+        State target = state;
+        target[leaf.word] ^= lead.change;
+        for (std::uint32_t r = lead.first_rule; r < lead.end_rule; ++r) {
+          fire(machine_->rules[r], state, target, out);
+        }
+      }
+    }
+    return true;
+  }
+
+  std::uint64_t state_hash(const State& state) const {
+    std::uint64_t hash = 0;
+    for (const std::uint64_t word : state) hash = base::hash_mix(hash, word);
+    return hash;
+  }
+  std::shared_ptr<const lts::LabelNames> label_names() const { return machine_->label_names; }
+  std::uint64_t memory_bytes() const { return machine_->memory_bytes(); }
+
+ private:
+  std::size_t row_of(const CompiledMachine::Leaf& leaf, const State& state) const {
+    return leaf.first_row + ((state[leaf.word] >> leaf.shift) & leaf.mask);
+  }
+
+  /// What a partner can do in a rule.
+  std::pair<const CompiledMachine::Follow*, const CompiledMachine::Follow*> moves(
+      const CompiledMachine::Partner& partner, const State& state) const {
+    constexpr std::ptrdiff_t short_row = 8;
+    const std::size_t row = row_of(machine_->leaves[partner.leaf], state);
+    const CompiledMachine::Follow* first = machine_->follows.data() + machine_->follow_rows[row];
+    const CompiledMachine::Follow* last = machine_->follows.data() + machine_->follow_rows[row + 1];
+    if (last - first > short_row) {
+      first = std::lower_bound(first, last, partner.port,
+                               [](const auto& f, std::uint32_t port) { return f.port < port; });
+    } else {
+      while (first != last && first->port < partner.port) ++first;
+    }
+    const CompiledMachine::Follow* end = first;
+    while (end != last && end->port == partner.port) ++end;
+    return {first, end};
+  }
+
+  /// The leader has moved already: `target`. Every combination of the partners' moves is a step.
+  void fire(const CompiledMachine::Rule& rule, const State& state, const State& target,
+            Steps& out) const {
+    const std::size_t begin = out.size();
+    out.push_back({rule.event, target});
+    for (std::uint32_t p = rule.first_partner; p < rule.end_partner; ++p) {
+      const CompiledMachine::Partner& partner = machine_->partners[p];
+      const auto [first, end] = moves(partner, state);
+      if (first == end) {
+        out.resize(begin);
+        return;
+      }
+      const std::uint32_t word = machine_->leaves[partner.leaf].word;
+      const std::size_t before = out.size();
+      for (const CompiledMachine::Follow* move = first + 1; move != end; ++move) {
+        for (std::size_t i = begin; i < before; ++i) {
+          lts::Transition<State> copy = out[i];
+          copy.target[word] ^= move->change;
+          out.push_back(copy);
+        }
+      }
+      for (std::size_t i = begin; i < before; ++i) out[i].target[word] ^= first->change;
+    }
+  }
+
+  const CompiledMachine* machine_;
+};
+
+/// The widest packed state that `with_system` can take.
+inline constexpr std::size_t max_machine_width = 32;
+
+/// Calls `use` with the machine as a transition system of the right width.
+template <class Use>
+auto with_system(const CompiledMachine& machine, Use use) {
+  const std::size_t width = machine.width();
+  PERENTIE_CHECK(width <= max_machine_width, "a machine is too wide");
+  if (width <= 1) return use(MachineSystem<1>(machine));
+  if (width <= 2) return use(MachineSystem<2>(machine));
+  if (width <= 4) return use(MachineSystem<4>(machine));
+  if (width <= 8) return use(MachineSystem<8>(machine));
+  return use(MachineSystem<max_machine_width>(machine));
+}
+
+}  // namespace perentie::semantics

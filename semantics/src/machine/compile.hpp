@@ -1,0 +1,28 @@
+// compile: a process term to a machine, where the machine is worth it and certainly right.
+//
+// The static operators on top of the settled term become rules (rules.hpp); the operands below them
+// become leaves, explored by the step rules, equal ones once. A leaf that fails or does not end is
+// no error: in the whole process it may never come so far, so the step rules are to decide.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "perentie/semantics/machine.hpp"
+#include "perentie/semantics/process.hpp"
+#include "perentie/semantics/step.hpp"
+
+namespace perentie::semantics {
+
+struct MachineParts {
+  CallUnfolder& calls;
+  const EventTable& events;
+  ProcStore& processes;
+  /// Asked for when all leaves are explored.
+  std::function<std::shared_ptr<const lts::LabelNames>()> label_names;
+};
+
+MachineCompilation compile_machine(ProcId process, const MachineParts& parts,
+                                   const MachineOptions& options);
+
+}  // namespace perentie::semantics

@@ -1,0 +1,23 @@
+// Rules over leaf LTSs to the tables of a machine.
+//
+// Each rule is led by the leaf that can take part in the fewest of its states: only what the leader
+// can do is looked at, the other leaves are asked. Events of a leaf that no rule has are dropped.
+// ✓ is one rule of all leaves, which sends each into a state of its own, so that a terminated whole
+// is one state (CSPM reference 4.1.2).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "machine/rules.hpp"
+#include "perentie/lts/lts.hpp"
+#include "perentie/semantics/machine.hpp"
+
+namespace perentie::semantics {
+
+/// `leaves` points to the LTS of each leaf; none may be null. Nothing: the states are too wide.
+std::optional<CompiledMachine> make_tables(const std::vector<const lts::Lts*>& leaves,
+                                           const RuleBuilder& builder,
+                                           const RuleBuilder::Rules& rules);
+
+}  // namespace perentie::semantics
