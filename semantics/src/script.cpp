@@ -5,6 +5,7 @@
 
 #include "evaluate/machine.hpp"
 #include "lower/lower.hpp"
+#include "machine/compile.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 #include "perentie/semantics/resolve.hpp"
 #include "perentie/semantics/step.hpp"
@@ -298,6 +299,12 @@ TermSystem Script::terms(ProcId process, base::Diagnostics& diagnostics) {
 
 bool TermSystem::successors(State state, std::vector<lts::Transition<State>>& out) {
   return impl_->has_initial && impl_->rules.successors(state, out);
+}
+
+MachineCompilation Script::machine(ProcId process, const MachineOptions& options) {
+  const MachineParts parts{*impl_->machine, impl_->events, impl_->processes,
+                           [this] { return impl_->label_names(); }};
+  return compile_machine(process, parts, options);
 }
 
 std::uint64_t TermSystem::state_hash(State state) const { return base::hash_mix(0, state.value); }
