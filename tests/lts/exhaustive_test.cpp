@@ -2,13 +2,19 @@
 // the definitions: nothing small is overlooked.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "bisimulation_oracle.hpp"
 #include "compare_with_oracles.hpp"
+#include "perentie/lts/compressions.hpp"
+#include "perentie/lts/weak_bisimulation.hpp"
 #include "perentie/test/lts_oracles.hpp"
 #include "perentie/test/lts_text.hpp"
+#include "same_behaviour.hpp"
 
 namespace perentie::lts {
 namespace {
@@ -54,6 +60,29 @@ bool is_connected(const Lts& lts) {
   return found + 1 == test::StateSet{1} << lts.state_count();
 }
 
+std::string wrong_in_compressions(const Lts& lts, std::size_t depth) {
+  using test::Bisimilarity;
+  using test::wrong_in_compression;
+  const auto in_quotient = [&](const Quotient& quotient, Bisimilarity kind) -> std::string {
+    if (!test::are_bisimilar(lts, quotient.lts, kind)) return "not bisimilar";
+    const auto classes = test::bisimilarity_classes(quotient.lts, kind);
+    if (*std::ranges::max_element(classes) + 1 != classes.size()) return "not minimal";
+    return wrong_in_compression(lts, quotient.lts, depth);
+  };
+  std::string wrong = in_quotient(strong_bisimulation(lts), Bisimilarity::strong);
+  if (!wrong.empty()) return "strong: " + wrong;
+  wrong = in_quotient(std::get<Quotient>(delay_bisimulation(lts)), Bisimilarity::delay);
+  if (!wrong.empty()) return "delay: " + wrong;
+  wrong = in_quotient(std::get<Quotient>(weak_bisimulation(lts)), Bisimilarity::weak);
+  if (!wrong.empty()) return "weak: " + wrong;
+  wrong = wrong_in_compression(lts, tau_loop_factor(lts).lts, depth);
+  if (!wrong.empty()) return "tau_loop_factor: " + wrong;
+  wrong = wrong_in_compression(lts, std::get<GeneralisedLts>(diamond(lts)), depth);
+  if (!wrong.empty()) return "diamond: " + wrong;
+  wrong = wrong_in_compression(lts, std::get<GeneralisedLts>(normal(lts)), depth);
+  return wrong.empty() ? "" : "normal: " + wrong;
+}
+
 /// Traces of 2^states labels pass through every set of states, so longer ones show nothing new.
 void check_all(std::uint32_t states, const std::vector<Label>& labels) {
   const std::size_t depth = std::size_t{1} << states;
@@ -67,6 +96,7 @@ void check_all(std::uint32_t states, const std::vector<Label>& labels) {
     for (const auto model : {DeterminismModel::failures, DeterminismModel::failures_divergences}) {
       ASSERT_EQ(test::wrong_in_determinism(lts, model, depth), "") << test::to_text(lts);
     }
+    ASSERT_EQ(wrong_in_compressions(lts, depth), "") << test::to_text(lts);
   }
 }
 

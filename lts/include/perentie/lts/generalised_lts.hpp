@@ -1,0 +1,22 @@
+// GeneralisedLts: an Lts whose states carry what their edges alone no longer say.
+//
+// A compression that removes τ has to remember which failures and divergences were behind it: each
+// state has minimal acceptances and a divergence mark (CSPM reference 4.7.1).
+#pragma once
+
+#include <vector>
+
+#include "perentie/lts/acceptances.hpp"
+#include "perentie/lts/lts.hpp"
+
+namespace perentie::lts {
+
+/// The failures of a state are those that its acceptances allow; that a state has no τ says nothing
+/// of its own. `divergent` and `acceptances` are by state.
+struct GeneralisedLts {
+  Lts lts;
+  std::vector<bool> divergent;
+  Acceptances acceptances;
+};
+
+}  // namespace perentie::lts
