@@ -137,6 +137,9 @@ class Printer {
       case ValueKind::int_set:
         text_ += "Integers";
         break;
+      case ValueKind::proc_set:
+        text_ += "Proc";
+        break;
       case ValueKind::from_set:
         then({"{", inner(value), "...}"});
         break;

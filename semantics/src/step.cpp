@@ -13,6 +13,8 @@ namespace {
 
 // Operators in operators: a bound on recursion over the structure of a term.
 constexpr std::uint32_t max_depth = 1'500;
+// Names that stand for names: `P(n) = P(n + 1)` is no state.
+constexpr std::uint32_t max_names = 2'000'000;
 // More τ in a row are taken for divergence, which `chase` cannot follow.
 constexpr std::size_t max_chased = 1'000'000;
 
@@ -71,19 +73,34 @@ std::optional<ProcId> StepRules::unfold(ProcId call) {
 }
 
 std::optional<ProcId> StepRules::settle(ProcId process) {
-  if (processes_.kind(process) != ProcKind::call) return settle_operands(process);
-  if (const auto known = settled_.find(process.value); known != settled_.end())
-    return known->second;
-  settled_[process.value] = process;  // for a name that stands for itself alone
-  const std::optional<ProcId> body = unfold(process);
-  if (!body) return std::nullopt;
-  const ProcKind kind = processes_.kind(*body);
-  // DIV, RUN(A) and CHAOS(A) are names, too.
-  const bool is_name = kind == ProcKind::call || kind == ProcKind::div || kind == ProcKind::run ||
-                       kind == ProcKind::chaos;
-  if (!is_name && !static_operands(kind)) return process;
-  const std::optional<ProcId> state = settle(*body);
-  if (state) settled_[process.value] = *state;
+  std::vector<ProcId> names;
+  std::optional<ProcId> state;
+  while (!state) {
+    if (processes_.kind(process) != ProcKind::call) {
+      state = settle_operands(process);
+      if (!state) return std::nullopt;
+    } else if (const auto known = settled_.find(process.value); known != settled_.end()) {
+      state = known->second;
+    } else if (names.size() == max_names) {
+      limit_ = base::LimitReached{base::LimitKind::depth, max_names};
+      return std::nullopt;
+    } else {
+      names.push_back(process);
+      settled_[process.value] = process;  // for a name that stands for itself alone
+      const std::optional<ProcId> body = unfold(process);
+      if (!body) return std::nullopt;
+      const ProcKind kind = processes_.kind(*body);
+      // DIV, RUN(A) and CHAOS(A) are names, too.
+      const bool is_name = kind == ProcKind::call || kind == ProcKind::div ||
+                           kind == ProcKind::run || kind == ProcKind::chaos;
+      if (is_name || static_operands(kind)) {
+        process = *body;
+      } else {
+        state = process;
+      }
+    }
+  }
+  for (const ProcId name : names) settled_[name.value] = *state;
   return state;
 }
 
@@ -573,7 +590,7 @@ bool StepRules::chase(ProcId process, Steps& out) {
   std::unordered_set<std::uint32_t> chased;
   for (;;) {
     if (!chased.insert(state.value).second || chased.size() > max_chased) {
-      diagnostics_.report(codes::chase_without_end, "`chase` does not end: its process diverges");
+      report(codes::chase_without_end, process, "`chase` does not end: its process diverges");
       return false;
     }
     Steps steps;
@@ -590,11 +607,19 @@ bool StepRules::chase(ProcId process, Steps& out) {
   }
 }
 
+// At the place where the script asked for the term, if that is known.
+void StepRules::report(const base::DiagnosticCode& code, ProcId term, std::string message) {
+  if (const auto origin = calls_.origin(term)) {
+    diagnostics_.report(code, *origin, std::move(message));
+  } else {
+    diagnostics_.report(code, std::move(message));
+  }
+}
+
 bool StepRules::refuse_opaque(ProcId process) {
   const auto builtin = static_cast<Builtin>(processes_.word(process, 0));
-  diagnostics_.report(
-      codes::not_supported,
-      fmt::format("the transitions of `{}` are not supported yet", info(builtin).name));
+  report(codes::not_supported, process,
+         fmt::format("the transitions of `{}` are not supported yet", info(builtin).name));
   return false;
 }
 

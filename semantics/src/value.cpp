@@ -25,6 +25,7 @@ ValueStore::ValueStore() {
   empty_set_ = intern(ValueKind::set, std::span<const std::uint32_t>{});
   empty_map_ = intern(ValueKind::map, std::span<const std::uint32_t>{});
   int_set_ = unit(ValueKind::int_set, 0);
+  proc_set_ = unit(ValueKind::proc_set, 0);
   ignored_ = unit(ValueKind::ignored, 0);
 }
 

@@ -2,8 +2,8 @@
 // way of a rover's model from its text to its normal form.
 //
 // `peak_mb` is the largest resident size of the whole program so far: run one workload by itself
-// (--benchmark_filter=..) to read it. ../shared is needed for nothing but one line, which is left
-// out without it.
+// (--benchmark_filter=..) to read it. ../shared is needed for nothing but two lines, which are
+// left out without it.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -77,6 +77,32 @@ PERENTIE_WORKLOAD(map_updates, "mapMember(fill(emptyMap, {n}), 7919)", "true")
 PERENTIE_WORKLOAD(set_comprehension, "card({(x, y) | x <- {1..{n}}, y <- {1..{n}}})", "")
     ->Arg(316)
     ->Arg(1'000);
+
+// --- Loading ------------------------------------------------------------------------------------
+
+// A file with all that it includes: read, parsed, resolved, inferred and lowered.
+void load(benchmark::State& state, const std::string& path) {
+  if (!std::filesystem::exists(path)) {
+    state.SkipWithError("there is no such file");
+    return;
+  }
+  for (auto _ : state) {
+    base::SourceMap sources;
+    base::Diagnostics diagnostics;
+    const auto file = sources.add(path, *base::read_file(path).text);
+    if (Script::load(*file, sources, diagnostics) == nullptr) {
+      state.SkipWithError(base::render_all(diagnostics, sources).c_str());
+      return;
+    }
+  }
+  state.counters["peak_mb"] = peak_megabytes();
+}
+
+BENCHMARK_CAPTURE(load, corpus_rover, "corpus/rover/rover.csp")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(
+    load, shared_robochart,
+    "../shared/data/varanus/oracles/inspection-rover-ras/robochart-version/comparison.csp")
+    ->Unit(benchmark::kMillisecond);
 
 // --- Synthesis ----------------------------------------------------------------------------------
 

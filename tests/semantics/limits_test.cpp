@@ -45,6 +45,14 @@ TEST(LimitsTest, DataNestsAThousandDeep) {
   EXPECT_EQ(value_of("#show(build(1000))", numbers), "5004");
 }
 
+TEST(LimitsTest, DeepDataIsBuiltInLinearTime) {
+  EXPECT_EQ(value_of("size(build(100000))",
+                     "datatype Nat = Zero | Succ.Nat\n"
+                     "build(n) = if n == 0 then Zero else Succ.build(n - 1)\n"
+                     "size(Zero) = 0\nsize(Succ.m) = 1 + size(m)"),
+            "100000");
+}
+
 TEST(LimitsTest, LongExpressionsAreLoweredWithoutRecursion) {
   EXPECT_EQ(value_of("0" + repeated(" + 1", 10'000)), "10000");
   EXPECT_EQ(value_of("#(<>" + repeated("^<1>", 1'000) + ")"), "1000");
@@ -74,6 +82,16 @@ TEST(LimitsTest, TermsNestedTooDeeplyEndInconclusively) {
   EXPECT_EQ(script.messages(), "");
 }
 
+TEST(LimitsTest, NamesStandForNamesAHundredThousandDeep) {
+  TestScript script(
+      "channel a\nP(n) = if n == 0 then a -> STOP else P(n - 1)\nEndless(n) = Endless(n + 1)");
+  const auto lts = script.explore("P(100000)");
+  ASSERT_TRUE(lts) << script.messages();
+  EXPECT_EQ(lts->state_count(), 2U);
+  EXPECT_FALSE(script.explore("Endless(0)"));
+  EXPECT_EQ(script.messages(), "");
+}
+
 // --- Time ---------------------------------------------------------------------------------------
 
 class Endless : public ::testing::TestWithParam<const char*> {};
@@ -84,6 +102,9 @@ loop(n) = loop(n + 1)
 grow(xs) = grow(xs^<1>)
 double(s) = double(union(s, {x + card(s) | x <- s}))
 ones = <1>^ones
+twice(x) = (x, x)
+twice4(x) = twice(twice(twice(twice(x))))
+twice16(x) = twice4(twice4(twice4(twice4(x))))
 )");
   base::Limits limits;
   limits.timeout = std::chrono::milliseconds(100);
@@ -99,7 +120,17 @@ INSTANTIATE_TEST_SUITE_P(Evaluation, Endless,
                          ::testing::Values("loop(0)", "#ones", "elem(2, ones)",
                                            "#<x | x <- <0..>, x < 0>",
                                            "head(<x | x <- <1..>, x < 0>)", "show(<0..>)",
-                                           "ones == ones"));
+                                           "ones == ones", "twice16(twice16(twice16(1)))"));
+
+TEST(LimitsTest, ListingEventsEndsWhenItsTimeIsUp) {
+  TestScript script("channel c : {0..15}.{0..15}.{0..15}.{0..15}.{0..15}.{0..15}");
+  base::Limits limits;
+  limits.timeout = std::chrono::milliseconds(50);
+  script.script().set_limits(limits);
+  EXPECT_EQ(script.evaluate("card({|c|})"), std::nullopt);
+  ASSERT_TRUE(script.script().limit());
+  EXPECT_EQ(script.script().limit()->kind, base::LimitKind::time);
+}
 
 TEST(LimitsTest, EvaluationEndsWhenItIsCancelled) {
   TestScript script("loop(n) = loop(n + 1)");

@@ -131,7 +131,9 @@ void Machine::name_process(FunctionId id, std::uint32_t group, Word scope_frame,
     arguments.push_back(function.ignored[i] ? values_.ignored() : value_at(argument_count - 1 - i));
   }
   const ValueId name = values_.make_function(id.value, group, *scope);
-  replace(argument_count + 1, processes_.call(name, arguments));
+  const ProcId term = processes_.call(name, arguments);
+  const bool is_of_prelude = function.entry < program_.prelude_end;
+  replace(argument_count + 1, is_of_prelude ? remember_origin(term) : term);
 }
 
 void Machine::process_constant(std::uint32_t hops, FunctionId function, Address at) {
@@ -184,13 +186,16 @@ void Machine::apply_builtin(Builtin builtin, std::uint32_t operand_count,
                                                                 value_at(1), value_at(0)));
     case Builtin::chase:
     case Builtin::chase_nocache:
-      return replace(operand_count, processes_.chase(process_at(0)));
+      return replace(operand_count, remember_origin(processes_.chase(process_at(0))));
     default:
       break;
   }
   if (info(builtin).kind == BuiltinKind::opaque) {
     const std::vector<ValueId> arguments = top_values(argument_count);
-    return replace(operand_count, processes_.opaque(builtin, arguments));
+    if (builtin == Builtin::weak_buffer || builtin == Builtin::signal_buffer) {
+      builder_.check_buffer(arguments);
+    }
+    return replace(operand_count, remember_origin(processes_.opaque(builtin, arguments)));
   }
   if (info(builtin).kind == BuiltinKind::process_function) {  // the compressions
     if (std::find(compressions_.begin(), compressions_.end(), builtin) == compressions_.end()) {

@@ -11,6 +11,11 @@
 #include "sets.hpp"
 
 namespace perentie::semantics {
+namespace {
+
+constexpr std::size_t extensions_per_checkpoint = 4096;
+
+}  // namespace
 
 std::span<const ValueId> DataModel::fields(SymbolId symbol) const {
   if (!has_data(symbol)) return {};
@@ -42,20 +47,26 @@ bool DataModel::is_application(ValueId value) const {
 // From the value inwards along last components to the innermost one that lacks a field; empty if
 // the value is complete.
 std::vector<ValueId> DataModel::incomplete_path(ValueId value) const {
+  if (is_complete(value)) return {};
   std::vector<ValueId> path{value};
   while (values_.kind(path.back()) == ValueKind::dot) {
     path.push_back(values_.items(path.back()).back());
   }
-  while (!path.empty() && !lacks_field(path.back())) path.pop_back();
+  while (!lacks_field(path.back())) path.pop_back();
   return path;
 }
 
 bool DataModel::is_complete(ValueId value) const {
-  for (;;) {
+  // Data is built from the inside: what is known about a field is not looked for again.
+  std::vector<std::uint32_t> seen;
+  while (!complete_dots_.contains(value.bits)) {
     if (lacks_field(value)) return false;
-    if (values_.kind(value) != ValueKind::dot) return true;
+    if (values_.kind(value) != ValueKind::dot) break;
+    seen.push_back(value.bits);
     value = values_.items(value).back();
   }
+  complete_dots_.insert(seen.begin(), seen.end());
+  return true;
 }
 
 bool DataModel::is_event(ValueId value) const {
@@ -207,6 +218,26 @@ const std::vector<DataModel::Extension>& DataModel::extensions(ValueId partial,
   return known[partial.bits] = find_extensions(partial, all_remaining);
 }
 
+// So many extensions that they cannot be listed are refused before they are listed.
+void DataModel::check_extension_count(ValueId partial) const {
+  const auto refuse = [&] {
+    fail(codes::too_large, fmt::format("`{}` has more than {} extensions",
+                                       brief(values_, resolution_, partial), max_set_elements));
+  };
+  if (incomplete_path(partial).size() != 1) return;  // inside a field: bounded by its declared set
+  const bool is_atom = values_.kind(partial) == ValueKind::atom;
+  const SymbolId symbol = values_.as_symbol(is_atom ? partial : values_.items(partial)[0]);
+  const std::size_t given = is_atom ? 0 : values_.items(partial).size() - 1;
+  std::size_t count = 1;
+  for (const ValueId set : fields(symbol).subspan(given)) {
+    if (!is_finite_set(values_, set)) return;  // refused where it is reached
+    const std::size_t size = values_.items(set).size();
+    if (size == 0) return;
+    if (size > max_set_elements / count) refuse();
+    count *= size;
+  }
+}
+
 std::vector<DataModel::Extension> DataModel::find_extensions(ValueId partial,
                                                              bool all_remaining) const {
   std::vector<Extension> result;
@@ -216,6 +247,7 @@ std::vector<DataModel::Extension> DataModel::find_extensions(ValueId partial,
     }
     return result;
   }
+  check_extension_count(partial);
   struct Open {
     ValueId value;
     std::vector<ValueId> appended;
@@ -229,10 +261,7 @@ std::vector<DataModel::Extension> DataModel::find_extensions(ValueId partial,
       const ValueId component =
           open.appended.size() == 1 ? open.appended[0] : values_.make_dot(open.appended);
       result.push_back({open.value, component});
-      if (result.size() > max_set_elements) {
-        fail(codes::too_large, fmt::format("`{}` has more than {} extensions",
-                                           brief(values_, resolution_, partial), max_set_elements));
-      }
+      if (result.size() % extensions_per_checkpoint == 0) checkpoint_();
       continue;
     }
     const std::vector<ValueId> next = next_components(open.value);

@@ -5,8 +5,12 @@
 // `datatype T = A.{0}` is therefore [c, [A, 0], x].
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "code.hpp"
@@ -19,6 +23,9 @@ class DataModel {
  public:
   DataModel(ValueStore& values, const Resolution& resolution, const Program& program)
       : values_(values), resolution_(resolution), program_(program) {}
+
+  /// What long enumerations call from time to time; it may throw to end them.
+  void set_checkpoint(std::function<void()> checkpoint) { checkpoint_ = std::move(checkpoint); }
 
   /// The sets of a channel's or constructor's fields. Throws NeedFields until they are known.
   std::span<const ValueId> fields(SymbolId symbol) const;
@@ -53,6 +60,7 @@ class DataModel {
  private:
   ValueId append_all(ValueId left, ValueId right) const;
   std::vector<Extension> find_extensions(ValueId partial, bool all_remaining) const;
+  void check_extension_count(ValueId partial) const;
   std::vector<ValueId> incomplete_path(ValueId value) const;
   bool lacks_field(ValueId value) const;
   bool is_application(ValueId value) const;
@@ -71,6 +79,8 @@ class DataModel {
   // What was computed before: values are hash-consed, and models ask for the same again and again.
   mutable std::unordered_map<std::uint64_t, ValueId> appended_;  // by both operands
   mutable std::unordered_map<std::uint32_t, std::vector<Extension>> extensions_[2];  // by value
+  mutable std::unordered_set<std::uint32_t> complete_dots_;                          // by value
+  std::function<void()> checkpoint_ = [] {};
 };
 
 }  // namespace perentie::semantics

@@ -308,7 +308,8 @@ void Machine::compare(Op op, Address at) {
   if (!is_canonical(a)) return canon_operand(operands_.size() - 2, at);
   if (!is_canonical(b)) return canon_operand(operands_.size() - 1, at);
   if (op == Op::equal) return replace(2, values_.make_bool(a == b));
-  const std::optional<Ordering> order = compare_partially(values_, to_value(a), to_value(b));
+  const std::optional<Ordering> order =
+      compare_inclusion(values_, resolution_, to_value(a), to_value(b));
   if (!order) {
     fail(codes::wrong_type, fmt::format("`{}` and `{}` have no order", describe(a), describe(b)));
   }
@@ -439,7 +440,7 @@ void Machine::iter_begin(bool over_set) {
   const ValueId collection = value_at(0);
   if (over_set) {
     require_set(collection);
-    if (!is_finite_set(values_, collection)) {
+    if (!is_finite_set(values_, collection) && !lists_nothing(values_, collection)) {
       fail(codes::infinite_set, fmt::format("cannot go through the infinite set {}",
                                             brief(values_, resolution_, collection)));
     }
@@ -447,7 +448,9 @@ void Machine::iter_begin(bool over_set) {
     fail(codes::wrong_type, fmt::format("a sequence is needed, but this is `{}`",
                                         brief(values_, resolution_, collection)));
   }
-  iterators_.push_back({over_set ? Iterator::Kind::set : Iterator::Kind::sequence, collection});
+  const ValueId listed =
+      over_set && !is_finite_set(values_, collection) ? values_.empty_set() : collection;
+  iterators_.push_back({over_set ? Iterator::Kind::set : Iterator::Kind::sequence, listed});
   pop();
 }
 
@@ -663,11 +666,8 @@ void Machine::timed_choice() {
 
 void Machine::fail_unsupported(SymbolId id) {
   const Symbol& symbol = resolution_.symbols[id];
-  const bool is_builtin = !symbol.span;
-  fail(codes::not_supported, is_builtin
-                                 ? fmt::format("`{}` is not supported yet", symbol.qualified)
-                                 : fmt::format("`{}` cannot be used: {} are not supported yet",
-                                               symbol.qualified, symbol.unsupported_construct));
+  fail(codes::not_supported, fmt::format("`{}` cannot be used: {} are not supported yet",
+                                         symbol.qualified, symbol.unsupported_construct));
 }
 
 // --- Processes ----------------------------------------------------------------------------------

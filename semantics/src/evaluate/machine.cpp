@@ -34,6 +34,7 @@ Machine::Machine(const Program& program, const Resolution& resolution, std::uint
   // The scope of all globals is canonical scope 0.
   scopes_.intern(0, {});
   instances_.emplace_back();
+  data_.set_checkpoint([this] { checkpoint(); });
 }
 
 void Machine::extend_globals() {
@@ -48,6 +49,7 @@ void Machine::extend_globals() {
 }
 
 std::optional<ValueId> Machine::run(Address entry, base::Diagnostics& diagnostics) {
+  unfolding_origin_.reset();
   return run_in(entry, Word(), diagnostics);
 }
 
@@ -75,6 +77,7 @@ std::optional<ProcId> Machine::unfold(ProcId call, base::Diagnostics& diagnostic
     }
     frame = Word::object(arguments);
   }
+  unfolding_origin_ = origin(call);
   const std::optional<ValueId> body = run_in(info.entry, frame, diagnostics);
   if (!body) return std::nullopt;
   return unfolded_[call.value] = values_.as_process(*body);
@@ -112,12 +115,23 @@ bool Machine::execute() {
   return true;
 }
 
-void Machine::safepoint() {
-  fuel_ = fuel_per_check;
+void Machine::check_depth_and_time() {
   if (control_.size() > max_control) {
     throw EvaluationLimit{{base::LimitKind::depth, max_control / 2}};
   }
   if (const auto reached = budget_->check_time()) throw EvaluationLimit{*reached};
+}
+
+// For built-ins that work long without running instructions.
+void Machine::checkpoint() const {
+  if (!budget_) return;
+  if (const auto reached = budget_->check_time()) throw EvaluationLimit{*reached};
+  if (const auto reached = budget_->check_memory(memory_bytes())) throw EvaluationLimit{*reached};
+}
+
+void Machine::safepoint() {
+  fuel_ = fuel_per_check;
+  check_depth_and_time();
   if (!heap_.wants_collection()) return;
   if (const auto reached = budget_->check_memory(memory_bytes())) throw EvaluationLimit{*reached};
   heap_.collect([this](auto move) {
@@ -135,6 +149,8 @@ void Machine::safepoint() {
 // The block's value is on top: hand it to whoever waits for it.
 void Machine::return_value() {
   for (;;) {
+    // A value can be larger than what it took to make it: (x, x) of (y, y) of ..
+    if (++returns_ % fuel_per_check == 0) check_depth_and_time();
     const Control entry = control_.back();
     control_.pop_back();
     switch (entry.kind) {
@@ -233,7 +249,18 @@ base::Span Machine::failure_span() const {
     const bool is_return = entry->kind == ControlKind::resume || entry->kind == ControlKind::retry;
     if (is_return && entry->a > program_.prelude_end) return program_.spans[entry->a - 1];
   }
-  return program_.spans[pc_ - 1];
+  return unfolding_origin_.value_or(program_.spans[pc_ - 1]);
+}
+
+// Terms that fail later, in the step rules or in the prelude, are traced back to the script.
+ProcId Machine::remember_origin(ProcId term) {
+  origins_.try_emplace(term.value, failure_span());
+  return term;
+}
+
+std::optional<base::Span> Machine::origin(ProcId term) const {
+  const auto found = origins_.find(term.value);
+  return found == origins_.end() ? std::nullopt : std::optional(found->second);
 }
 
 void Machine::report(const EvaluationFailure& failure) {

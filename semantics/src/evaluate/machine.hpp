@@ -52,6 +52,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
   bool takes_arguments(ValueId function) const override;
   std::string call_name(ProcId call) const override;
   base::Span definition_span(ProcId call) const override;
+  std::optional<base::Span> origin(ProcId term) const override;
 
   ProcessBuilder& builder() { return builder_; }
   ShowContext show_context() const { return {values_, events_, processes_, resolution_, *this}; }
@@ -95,6 +96,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
   void run_instructions();
   void step(Instruction instruction);
   void return_value();  // the value on top goes to the innermost control entry
+  void check_depth_and_time();
   void safepoint();
   void unwind();
   void report(const EvaluationFailure& failure);
@@ -133,6 +135,8 @@ class Machine final : public FunctionNames, public CallUnfolder {
   std::int64_t integer_at(std::size_t below, std::string_view operation);
   bool boolean_at(std::size_t below);
   ProcId process_at(std::size_t below);
+  ProcId remember_origin(ProcId term);
+  void checkpoint() const;
   ValueId value_at(std::size_t below) { return to_value(top(below)); }
   std::string describe(Word word);
   static Word settled(Word word);  // looks through evaluated thunks
@@ -230,7 +234,10 @@ class Machine final : public FunctionNames, public CallUnfolder {
   std::vector<Word> globals_;
   base::TermTable scopes_;       // canonical scopes: {scope, parent, identity values..}
   std::vector<Word> instances_;  // by canonical scope: its frame
-  std::unordered_map<std::uint32_t, ProcId> unfolded_;    // by call
+  std::unordered_map<std::uint32_t, ProcId> unfolded_;  // by call
+  // Where the script made terms that mean something to the library alone, by term.
+  std::unordered_map<std::uint32_t, base::Span> origins_;
+  std::optional<base::Span> unfolding_origin_;            // of the call that is being unfolded
   std::unordered_set<std::uint32_t> fields_in_progress_;  // by symbol
   std::vector<Builtin> compressions_;
 
@@ -239,6 +246,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
   std::optional<base::LimitReached> limit_;
   base::Diagnostics* diagnostics_ = nullptr;
   std::uint32_t fuel_ = 0;
+  std::uint32_t returns_ = 0;
 };
 
 }  // namespace perentie::semantics

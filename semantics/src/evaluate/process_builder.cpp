@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -170,6 +171,30 @@ ProcId ProcessBuilder::replicated_link(
     result = link_parallel(operands[i - 1].second, operands[i - 1].first, result);
   }
   return result;
+}
+
+// --- Buffers ------------------------------------------------------------------------------------
+
+void ProcessBuilder::check_buffer(std::span<const ValueId> arguments) {
+  const std::int64_t capacity = values_.as_int(arguments.front());
+  if (capacity < 1) {
+    fail(codes::user_error, fmt::format("The supplied buffer capacity {} was insufficient; it must "
+                                        "be at least 1.",
+                                        capacity));
+  }
+  std::vector<ValueId> events(arguments.begin() + 1, arguments.end() - 1);
+  for (const ValueId pair : elements_of(values_, arguments.back(), "make a buffer of")) {
+    const auto items = values_.items(pair);
+    events.insert(events.end(), items.begin(), items.end());
+  }
+  std::unordered_set<std::uint32_t> seen;
+  for (const ValueId value : events) {
+    if (!seen.insert(event(value).value).second) {
+      fail(codes::user_error, fmt::format("The events of a buffer must differ from each other, but "
+                                          "`{}` is there twice.",
+                                          show_event(event(value))));
+    }
+  }
 }
 
 // --- Priority -----------------------------------------------------------------------------------

@@ -47,6 +47,9 @@ class ProcessBuilder {
   /// `P1 [l1] (P2 [l2] (.. Pn))` (4.4.4).
   ProcId replicated_link(std::span<const std::pair<std::vector<Tie>, ProcId>> operands);
 
+  /// The arguments of a buffer with signals: a capacity, the signals, pairs of events (3.10.6).
+  void check_buffer(std::span<const ValueId> arguments);
+
   ProcId prioritise(ProcId operand, ValueId order);
   ProcId prioritise_partial(ProcId operand, ValueId prioritised, ValueId order, ValueId maximal);
 

@@ -38,17 +38,25 @@ std::int64_t first_of(const ValueStore& values, ValueId from_set) {
   return values.as_int(ValueId{values.word(from_set, 0)});
 }
 
-// Whether every element of the (possibly infinite) `a` is in the infinite `b`, as far as shapes
-// tell.
-bool is_inside(const ValueStore& values, ValueId a, ValueId b) {
-  if (a == b) return true;
-  if (is_set_kind(values, a, ValueKind::from_set)) {
-    if (is_set_kind(values, b, ValueKind::int_set)) return true;
-    if (is_set_kind(values, b, ValueKind::from_set)) {
+// Whether every element of `a` is in `b`. Sets of different shapes that hold the same type are
+// finite in one case, so shapes decide.
+bool is_inside(const ValueStore& values, const Resolution& resolution, ValueId a, ValueId b) {
+  for (;;) {
+    if (a == b || is_set_kind(values, b, ValueKind::int_set)) return true;
+    if (is_set_kind(values, a, ValueKind::set)) {
+      const auto items = values.items(a);
+      return std::all_of(items.begin(), items.end(), [&](ValueId element) {
+        return set_contains(values, resolution, b, element);
+      });
+    }
+    if (values.kind(a) != values.kind(b)) return false;
+    if (is_set_kind(values, a, ValueKind::from_set)) {
       return first_of(values, a) >= first_of(values, b);
     }
+    if (!is_set_kind(values, a, ValueKind::seq_set)) return false;
+    a = ValueId{values.word(a, 0)};
+    b = ValueId{values.word(b, 0)};
   }
-  return false;
 }
 
 }  // namespace
@@ -57,18 +65,29 @@ bool is_finite_set(const ValueStore& values, ValueId set) {
   return is_set_kind(values, set, ValueKind::set);
 }
 
+bool lists_nothing(const ValueStore& values, ValueId set) {
+  return is_set_kind(values, set, ValueKind::seq_set) &&
+         ValueId{values.word(set, 0)} == values.empty_set();
+}
+
+std::size_t cardinality(const ValueStore& values, ValueId set) {
+  if (!is_finite_set(values, set)) fail_infinite("take the cardinality of");
+  return values.items(set).size();
+}
+
 std::vector<ValueId> elements_of(const ValueStore& values, ValueId set, std::string_view purpose) {
+  if (lists_nothing(values, set)) return {};
   if (!is_finite_set(values, set)) fail_infinite(purpose);
   return copy_items(values, set);
 }
 
-ValueId set_union(ValueStore& values, ValueId a, ValueId b) {
+ValueId set_union(ValueStore& values, const Resolution& resolution, ValueId a, ValueId b) {
   if (a == b) return a;
   if (a == values.empty_set()) return b;
   if (b == values.empty_set()) return a;
   if (!is_finite_set(values, a) || !is_finite_set(values, b)) {
-    if (is_inside(values, a, b)) return b;
-    if (is_inside(values, b, a)) return a;
+    if (is_inside(values, resolution, a, b)) return b;
+    if (is_inside(values, resolution, b, a)) return a;
     fail_infinite("form the union with");
   }
   std::vector<ValueId> merged;
@@ -84,8 +103,8 @@ ValueId set_intersection(ValueStore& values, const Resolution& resolution, Value
   if (a == b) return a;
   if (!is_finite_set(values, a)) std::swap(a, b);
   if (!is_finite_set(values, a)) {
-    if (is_inside(values, a, b)) return a;
-    if (is_inside(values, b, a)) return b;
+    if (is_inside(values, resolution, a, b)) return a;
+    if (is_inside(values, resolution, b, a)) return b;
     fail_infinite("intersect");
   }
   std::vector<ValueId> common;
@@ -106,7 +125,7 @@ ValueId set_difference(ValueStore& values, const Resolution& resolution, ValueId
   if (a == b || a == values.empty_set()) return values.empty_set();
   if (b == values.empty_set()) return a;
   if (!is_finite_set(values, a)) {
-    if (is_inside(values, a, b)) return values.empty_set();
+    if (is_inside(values, resolution, a, b)) return values.empty_set();
     fail_infinite("take elements away from");
   }
   std::vector<ValueId> rest;
@@ -123,7 +142,7 @@ ValueId set_difference(ValueStore& values, const Resolution& resolution, ValueId
   return values.make_sorted_set(rest);
 }
 
-ValueId union_of_all(ValueStore& values, ValueId sets) {
+ValueId union_of_all(ValueStore& values, const Resolution& resolution, ValueId sets) {
   std::vector<ValueId> all;
   ValueId infinite = values.empty_set();
   for (const ValueId set : elements_of(values, sets, "form the distributed union of")) {
@@ -131,10 +150,10 @@ ValueId union_of_all(ValueStore& values, ValueId sets) {
       const auto items = values.items(set);
       all.insert(all.end(), items.begin(), items.end());
     } else {
-      infinite = set_union(values, infinite, set);
+      infinite = set_union(values, resolution, infinite, set);
     }
   }
-  return set_union(values, infinite, values.make_set(std::move(all)));
+  return set_union(values, resolution, infinite, values.make_set(std::move(all)));
 }
 
 ValueId intersection_of_all(ValueStore& values, const Resolution& resolution, ValueId sets) {
@@ -234,6 +253,8 @@ bool set_contains(const ValueStore& values, const Resolution& resolution, ValueI
     }
     case ValueKind::int_set:
       return values.kind(element) == ValueKind::integer;
+    case ValueKind::proc_set:
+      return values.kind(element) == ValueKind::process;
     case ValueKind::from_set:
       return values.kind(element) == ValueKind::integer &&
              values.as_int(element) >= first_of(values, set);
@@ -254,6 +275,15 @@ bool set_contains(const ValueStore& values, const Resolution& resolution, ValueI
     default:
       return false;
   }
+}
+
+std::optional<Ordering> compare_inclusion(const ValueStore& values, const Resolution& resolution,
+                                          ValueId a, ValueId b) {
+  const bool are_finite = is_finite_set(values, a) && is_finite_set(values, b);
+  if (are_finite || !values.is_set(a) || !values.is_set(b)) return compare_partially(values, a, b);
+  if (a == b) return Ordering::equal;
+  if (is_inside(values, resolution, a, b)) return Ordering::less;
+  return is_inside(values, resolution, b, a) ? Ordering::greater : Ordering::incomparable;
 }
 
 }  // namespace perentie::semantics

@@ -4,6 +4,7 @@
 // cannot be answered for them is an evaluation failure that says so, never a guess.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,14 +16,18 @@ namespace perentie::semantics {
 inline constexpr std::size_t max_set_elements = std::size_t{1} << 24U;
 
 bool is_finite_set(const ValueStore& values, ValueId set);
+/// `Seq({})`: its only element is never listed, as in FDR (11.10).
+bool lists_nothing(const ValueStore& values, ValueId set);
+/// The number of elements; fails for a set that is not finite.
+std::size_t cardinality(const ValueStore& values, ValueId set);
 
 /// The elements in order; fails for an infinite set, naming `purpose` ("Cannot ... ").
 std::vector<ValueId> elements_of(const ValueStore& values, ValueId set, std::string_view purpose);
 
-ValueId set_union(ValueStore& values, ValueId a, ValueId b);
+ValueId set_union(ValueStore& values, const Resolution& resolution, ValueId a, ValueId b);
 ValueId set_intersection(ValueStore& values, const Resolution& resolution, ValueId a, ValueId b);
 ValueId set_difference(ValueStore& values, const Resolution& resolution, ValueId a, ValueId b);
-ValueId union_of_all(ValueStore& values, ValueId sets);
+ValueId union_of_all(ValueStore& values, const Resolution& resolution, ValueId sets);
 ValueId intersection_of_all(ValueStore& values, const Resolution& resolution, ValueId sets);
 ValueId power_set(ValueStore& values, ValueId set);
 ValueId range_set(ValueStore& values, std::int64_t first, std::int64_t last);
@@ -35,5 +40,9 @@ ValueId all_maps(ValueStore& values, ValueId keys, ValueId results);
 /// value's constructor, whose fields were checked when the value was built.
 bool set_contains(const ValueStore& values, const Resolution& resolution, ValueId set,
                   ValueId element);
+
+/// `compare_partially`, which orders finite sets by inclusion, for infinite sets as well.
+std::optional<Ordering> compare_inclusion(const ValueStore& values, const Resolution& resolution,
+                                          ValueId a, ValueId b);
 
 }  // namespace perentie::semantics

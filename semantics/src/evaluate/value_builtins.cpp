@@ -83,6 +83,8 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
   switch (builtin) {
     case Builtin::int_set:
       return values.int_set();
+    case Builtin::proc_set:
+      return values.proc_set();
     case Builtin::bool_set:
       return values.make_set({values.make_bool(false), values.make_bool(true)});
     case Builtin::char_set: {
@@ -100,7 +102,7 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
       return values.empty_map();
 
     case Builtin::set_union:
-      return set_union(values, set(0), set(1));
+      return set_union(values, resolution, set(0), set(1));
     case Builtin::set_inter:
       return set_intersection(values, resolution, set(0), set(1));
     case Builtin::set_diff:
@@ -109,7 +111,7 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
       for (const ValueId inner : elements_of(values, set(0), "form the distributed union of")) {
         require_set(inner, name);
       }
-      return union_of_all(values, arguments[0]);
+      return union_of_all(values, resolution, arguments[0]);
     case Builtin::set_inter_all:
       for (const ValueId inner :
            elements_of(values, set(0), "form the distributed intersection of")) {
@@ -119,10 +121,9 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
     case Builtin::set_member:
       return values.make_bool(set_contains(values, resolution, set(1), arguments[0]));
     case Builtin::set_card:
-      return values.make_int(
-          static_cast<std::int64_t>(elements_of(values, set(0), "take the cardinality of").size()));
+      return values.make_int(static_cast<std::int64_t>(cardinality(values, set(0))));
     case Builtin::set_empty:
-      return values.make_bool(set(0) == values.empty_set());
+      return values.make_bool(set(0) == values.empty_set() || lists_nothing(values, set(0)));
     case Builtin::set_of_seq: {
       std::vector<ValueId> elements;
       for (ValueId s = seq(0); values.kind(s) == ValueKind::cons; s = values.tail(s)) {

@@ -47,10 +47,6 @@ void Resolver::Impl::declare_builtins(base::Interner& names) {
                   .qualified = std::string(builtin.name),
                   .span = std::nullopt,
                   .builtin = static_cast<Builtin>(i)};
-    if (builtin.kind == BuiltinKind::unsupported) {
-      symbol.kind = SymbolKind::unsupported;
-      symbol.unsupported_construct = builtin.name;
-    }
     symbol.groups = builtin.arguments.empty() ? 0 : 1;
     symbol.is_process = builtin.kind == BuiltinKind::process_constant ||
                         builtin.kind == BuiltinKind::process_function ||

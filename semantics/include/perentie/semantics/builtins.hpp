@@ -21,7 +21,6 @@ enum class BuiltinKind : std::uint8_t {
   process_function,
   opaque,   ///< a process function; its process can be named, but its transitions are not supported
   prelude,  ///< defined in the prelude, in CSPM
-  unsupported,  ///< known by name, not implemented yet
 };
 
 /// Which declaration brings the name into scope (CSPM reference 2.5.3, 2.10.3).

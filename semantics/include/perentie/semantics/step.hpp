@@ -32,6 +32,8 @@ class CallUnfolder {
   /// What to call the call in messages, and where its definition is.
   virtual std::string call_name(ProcId call) const = 0;
   virtual base::Span definition_span(ProcId call) const = 0;
+  /// Where the script asked for a term of a built-in, if that is known.
+  virtual std::optional<base::Span> origin(ProcId term) const = 0;
 };
 
 class StepRules {
@@ -75,6 +77,7 @@ class StepRules {
   bool compression(ProcId process, Steps& out);
   bool chase(ProcId process, Steps& out);
   bool refuse_opaque(ProcId process);
+  void report(const base::DiagnosticCode& code, ProcId term, std::string message);
   void chaos(ProcId process, Steps& out);
 
   std::optional<ProcId> sequential_target(ProcId left, ProcId right);

@@ -40,6 +40,7 @@ enum class ValueKind : std::uint8_t {
   cons,      ///< {head, tail, length}
   set,       ///< elements in ascending order
   int_set,   ///< all integers
+  proc_set,  ///< all processes
   from_set,  ///< {n}: all integers from n
   seq_set,   ///< {s}: all finite sequences over a set
   data_set,  ///< {symbol}: all values of a datatype with infinitely many
@@ -70,6 +71,7 @@ class ValueStore {
   ValueId make_set(std::vector<ValueId> elements);
   ValueId make_sorted_set(std::span<const ValueId> elements);
   ValueId int_set() const { return int_set_; }
+  ValueId proc_set() const { return proc_set_; }
   ValueId make_from_set(std::int64_t first);
   ValueId make_seq_set(ValueId elements);
   ValueId make_data_set(SymbolId datatype);
@@ -127,7 +129,7 @@ class ValueStore {
   ValueId intern(ValueKind kind, std::span<const ValueId> items);
 
   base::TermTable terms_;
-  ValueId false_, true_, empty_seq_, empty_set_, empty_map_, int_set_, ignored_;
+  ValueId false_, true_, empty_seq_, empty_set_, empty_map_, int_set_, proc_set_, ignored_;
 };
 
 /// The partial order of `<=` (3.2.4): sequences by prefix, sets by inclusion, maps entry by entry,
