@@ -11,13 +11,6 @@ namespace perentie::lts {
 
 namespace {
 
-bool has_tau(const Lts& lts) {
-  for (std::uint32_t s = 0; s < lts.state_count(); ++s) {
-    if (!lts.is_stable(State{s})) return true;
-  }
-  return false;
-}
-
 /// Merges the nodes that have the same acceptances, divergence and successors. Nodes say the same
 /// iff their minimal acceptances are the same sets, and each set has one number.
 GeneralisedLts reduce(const NormalLts& normal) {
@@ -52,12 +45,9 @@ GeneralisedLts reduce(const NormalLts& normal) {
 }  // namespace
 
 GeneralisedResult normal(const Lts& lts, const base::Limits& limits) {
-  std::optional<QuotientResult> quotient;
-  if (has_tau(lts)) {
-    quotient = delay_bisimulation(lts, limits);
-    if (const auto* limit = std::get_if<base::LimitReached>(&*quotient)) return *limit;
-  }
-  const Lts& small = quotient ? std::get<Quotient>(*quotient).lts : lts;
+  const QuotientResult quotient = delay_bisimulation(lts, limits);
+  if (const auto* limit = std::get_if<base::LimitReached>(&quotient)) return *limit;
+  const Lts& small = std::get<Quotient>(quotient).lts;
   const Normalisation result = normalise(small, {.limits = limits, .acceptances = true});
   if (result.limit) return *result.limit;
   PERENTIE_CHECK(result.complete(), "a normal form without a limit is not complete");

@@ -152,6 +152,7 @@ class DelayRefinement {
     }
     std::ranges::sort(key_words_);
     key_words_.erase(std::unique(key_words_.begin(), key_words_.end()), key_words_.end());
+    if (key_words_.back() < signature_word) return signatures_.add(key_words_);  // no τ
     const std::uint32_t key = keys_.add(key_words_);
     if (key == signature_of_key_.size()) signature_of_key_.push_back(unite(key_words_));
     return signature_of_key_[key];
@@ -246,6 +247,13 @@ Quotient quotient(const Lts& lts, const DelayRefinement& refinement, bool tau_fo
           std::move(blocks)};
 }
 
+bool has_tau(const Lts& lts) {
+  for (std::uint32_t s = 0; s < lts.state_count(); ++s) {
+    if (!lts.is_stable(State{s})) return true;
+  }
+  return false;
+}
+
 /// Makes the visible steps of each state go on to all that τ leads to after them.
 std::variant<Lts, base::LimitReached> follow_with_tau(const Lts& lts, const base::Limits& limits) {
   Watch watch(limits);
@@ -296,7 +304,8 @@ Quotient compose(const Quotient& inner, Quotient outer) {
 
 QuotientResult delay_bisimulation(const Lts& lts, const base::Limits& limits) {
   const Quotient factored = tau_loop_factor(lts);
-  const Quotient small = compose(factored, strong_bisimulation(factored.lts));
+  Quotient small = compose(factored, strong_bisimulation(factored.lts));
+  if (!has_tau(small.lts)) return small;
   DelayRefinement refinement(small.lts, limits);
   if (const auto limit = refinement.run()) return *limit;
   return compose(small, quotient(small.lts, refinement, false));

@@ -13,12 +13,14 @@
 #include "perentie/base/hash.hpp"
 #include "perentie/lts/aut.hpp"
 #include "perentie/lts/bisimulation.hpp"
+#include "perentie/lts/compressions.hpp"
 #include "perentie/lts/determinism.hpp"
 #include "perentie/lts/divergence.hpp"
 #include "perentie/lts/explore.hpp"
 #include "perentie/lts/hide.hpp"
 #include "perentie/lts/json.hpp"
 #include "perentie/lts/normalise.hpp"
+#include "perentie/lts/weak_bisimulation.hpp"
 
 namespace {
 
@@ -117,8 +119,9 @@ void count_edges(benchmark::State& state, const lts::Lts& graph) {
                                                  benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// Dining philosophers: each sits, takes the left fork and the right, eats, puts the right back and the left, gets
-/// up. The label of event e of philosopher i is 2 + 7 * i + e; 7 philosophers have 279,934 states.
+/// Dining philosophers: each sits, takes the left fork and the right, eats, puts the right back and
+/// the left, gets up. The label of event e of philosopher i is 2 + 7 * i + e; 7 philosophers have
+/// 279,934 states.
 struct Philosophers {
   using State = std::uint64_t;
 
@@ -167,14 +170,35 @@ void reduce(benchmark::State& state, const lts::Lts& graph, Reduction reduction)
 }
 
 lts::Quotient strong(const lts::Lts& graph) { return lts::strong_bisimulation(graph); }
+lts::Quotient delay(const lts::Lts& graph) {
+  return std::get<lts::Quotient>(lts::delay_bisimulation(graph));
+}
+lts::Quotient weak(const lts::Lts& graph) {
+  return std::get<lts::Quotient>(lts::weak_bisimulation(graph));
+}
 
 template <Reduction reduction>
 void reduce_philosophers(benchmark::State& state) {
   reduce(state, philosophers(static_cast<int>(state.range(0))), reduction);
 }
-BENCHMARK(reduce_philosophers<strong>)
+void philosopher_arguments(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgName("visible")->Arg(7)->Arg(2)->Arg(1)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(reduce_philosophers<strong>)->Apply(philosopher_arguments);
+BENCHMARK(reduce_philosophers<delay>)->Apply(philosopher_arguments);
+BENCHMARK(reduce_philosophers<weak>)->Apply(philosopher_arguments);
+
+/// Compression is not asked for: `normal` does it by itself.
+void normalise_philosophers(benchmark::State& state) {
+  const lts::Lts graph = philosophers(static_cast<int>(state.range(0)));
+  std::size_t states = 0;
+  for (auto _ : state) {
+    states = std::get<lts::GeneralisedLts>(lts::normal(graph)).lts.state_count();
+  }
+  state.counters["reduced"] = static_cast<double>(states);
+}
+BENCHMARK(normalise_philosophers)
     ->ArgName("visible")
-    ->Arg(7)
     ->Arg(2)
     ->Arg(1)
     ->Unit(benchmark::kMillisecond);
@@ -186,12 +210,12 @@ void reduce_random(benchmark::State& state) {
                     static_cast<std::uint32_t>(state.range(1))),
          reduction);
 }
-BENCHMARK(reduce_random<strong>)
-    ->ArgNames({"states", "tau_percent"})
-    ->Args({250'000, 0})
-    ->Args({1'000'000, 20})
-    ->Args({2'500'000, 20})
-    ->Unit(benchmark::kMillisecond);
+void random_arguments(benchmark::internal::Benchmark* benchmark) {
+  benchmark->ArgNames({"states", "tau_percent"})->Unit(benchmark::kMillisecond);
+  benchmark->Args({250'000, 0})->Args({1'000'000, 20})->Args({2'500'000, 20});
+}
+BENCHMARK(reduce_random<strong>)->Apply(random_arguments);
+BENCHMARK(reduce_random<delay>)->Apply(random_arguments);
 
 void divergence(benchmark::State& state) {
   const lts::Lts graph = random_lts(1'000'000, 5, 20);

@@ -96,6 +96,8 @@ void check_all(std::uint32_t states, const std::vector<Label>& labels) {
     for (const auto model : {DeterminismModel::failures, DeterminismModel::failures_divergences}) {
       ASSERT_EQ(test::wrong_in_determinism(lts, model, depth), "") << test::to_text(lts);
     }
+    // Of the graphs of three states one in sixteen, for time.
+    if (states == 3 && code % 16 != 5) continue;
     ASSERT_EQ(wrong_in_compressions(lts, depth), "") << test::to_text(lts);
   }
 }

@@ -24,9 +24,9 @@ using GeneralisedResult = std::variant<GeneralisedLts, base::LimitReached>;
 GeneralisedResult diamond(const Lts& lts, const base::Limits& limits = {});
 
 /// The normal form with its minimal acceptances and divergence, reduced by strong bisimulation
-/// (CSPM reference 4.7.7). τ-rich graphs are reduced by delay bisimulation before: the subset
-/// construction meets far fewer states and gives the same. `max_states` counts the nodes before the
-/// reduction.
+/// (CSPM reference 4.7.7). The graph is reduced by delay bisimulation before: the subset
+/// construction meets far fewer states in τ-rich graphs and gives the same. `max_states` counts the
+/// nodes before the reduction.
 GeneralisedResult normal(const Lts& lts, const base::Limits& limits = {});
 
 }  // namespace perentie::lts
