@@ -14,7 +14,7 @@ namespace {
 // Operators in operators: a bound on recursion over the structure of a term.
 constexpr std::uint32_t max_depth = 1'500;
 // Names that stand for names: `P(n) = P(n + 1)` is no state.
-constexpr std::uint32_t max_names = 2'000'000;
+constexpr std::uint32_t max_names = 200'000;
 // More τ in a row are taken for divergence, which `chase` cannot follow.
 constexpr std::size_t max_chased = 1'000'000;
 

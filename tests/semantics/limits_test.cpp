@@ -84,7 +84,8 @@ TEST(LimitsTest, TermsNestedTooDeeplyEndInconclusively) {
 
 TEST(LimitsTest, NamesStandForNamesAHundredThousandDeep) {
   TestScript script(
-      "channel a\nP(n) = if n == 0 then a -> STOP else P(n - 1)\nEndless(n) = Endless(n + 1)");
+      "channel a\nP(n) = if n == 0 then a -> STOP else P(n - 1)\n"
+      "Endless(n) = if n < 0 then STOP else Endless(n + 1)");
   const auto lts = script.explore("P(100000)");
   ASSERT_TRUE(lts) << script.messages();
   EXPECT_EQ(lts->state_count(), 2U);
