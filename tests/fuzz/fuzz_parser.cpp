@@ -5,30 +5,20 @@
 
 using namespace perentie;
 
-namespace {
-
-// The tree without the places of its nodes; nothing if the text has errors.
-std::string shape_of(const std::string& text, std::string& printed) {
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   base::SourceMap sources;
   base::Diagnostics diagnostics;
-  const auto file = sources.add("input.csp", text);
-  if (!file) return {};
-  const parser::SyntaxTree tree =
-      parser::parse_script(*file, sources, diagnostics, fuzz::without_includes());
+  const auto parse = [&](std::string name, std::string text) {
+    const auto file = sources.add(std::move(name), std::move(text));
+    return file ? parser::parse_script(*file, sources, diagnostics, fuzz::without_includes())
+                : parser::SyntaxTree{};
+  };
+  const parser::SyntaxTree tree = parse("input.csp", fuzz::text_of(data, size));
   fuzz::render(diagnostics, sources);
-  if (diagnostics.has_errors()) return {};
-  printed = parser::print_script(tree);
-  return printed;
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::string printed;
-  const std::string first = shape_of(fuzz::text_of(data, size), printed);
-  if (first.empty()) return 0;
-  std::string again;
-  const std::string second = shape_of(printed, again);
-  PERENTIE_CHECK(first == second, "what was printed does not parse to what prints the same");
+  if (diagnostics.has_errors()) return 0;
+  parser::dump_ast(tree, sources);
+  const parser::SyntaxTree again = parse("printed.csp", parser::print_script(tree));
+  PERENTIE_CHECK(!diagnostics.has_errors(), "what was printed does not parse");
+  PERENTIE_CHECK(parser::same_tree(tree, again), "what was printed parses to another tree");
   return 0;
 }
