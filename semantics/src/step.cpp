@@ -15,8 +15,28 @@ namespace {
 constexpr std::uint32_t max_depth = 1'500;
 // Names that stand for names: `P(n) = P(n + 1)` is no state.
 constexpr std::uint32_t max_names = 200'000;
+// How much is remembered of terms inside of states.
+constexpr std::size_t max_known_terms = 1U << 18U;
+constexpr std::size_t max_known_steps = 1U << 20U;
 // More τ in a row are taken for divergence, which `chase` cannot follow.
 constexpr std::size_t max_chased = 1'000'000;
+
+// Whether the steps of a term cost more than to look them up.
+bool is_worth_knowing(ProcKind kind) {
+  switch (kind) {
+    case ProcKind::stop:
+    case ProcKind::skip:
+    case ProcKind::div:
+    case ProcKind::prefix:
+    case ProcKind::event_set_prefix:
+    case ProcKind::internal_choice:
+    case ProcKind::chaos:
+    case ProcKind::run:
+      return false;
+    default:
+      return true;
+  }
+}
 
 }  // namespace
 
@@ -107,6 +127,9 @@ std::optional<ProcId> StepRules::settle(ProcId process) {
 std::optional<ProcId> StepRules::settle_operands(ProcId process) {
   const auto places = static_operands(processes_.kind(process));
   if (!places || depth_ >= max_depth) return process;
+  if (const auto known = settled_operands_.find(process.value); known != settled_operands_.end()) {
+    return known->second;
+  }
   const auto words = processes_.words(process);
   std::vector<std::uint32_t> settled(words.begin(), words.end());
   ++depth_;
@@ -116,7 +139,10 @@ std::optional<ProcId> StepRules::settle_operands(ProcId process) {
     settled[i] = operand->value;
   }
   --depth_;
-  return processes_.rebuild(process, settled);
+  const ProcId state = processes_.rebuild(process, settled);
+  if (settled_operands_.size() >= max_known_terms) settled_operands_.clear();
+  settled_operands_[process.value] = state;
+  return state;
 }
 
 bool StepRules::step(ProcId process, Steps& out) {
@@ -124,9 +150,31 @@ bool StepRules::step(ProcId process, Steps& out) {
     limit_ = base::LimitReached{base::LimitKind::depth, max_depth};
     return false;
   }
-  const bool done = step_term(process, out);
+  const bool is_operand = depth_ > 1 && is_worth_knowing(processes_.kind(process));
+  const auto known = is_operand ? known_steps_.find(process.value) : known_steps_.end();
+  bool done = true;
+  if (known != known_steps_.end()) {
+    const auto first = step_pool_.begin() + known->second.first;
+    out.insert(out.end(), first, first + known->second.count);
+  } else {
+    const std::size_t first = out.size();
+    done = step_term(process, out);
+    if (done && is_operand) remember_steps(process, std::span<const Step>(out).subspan(first));
+  }
   --depth_;
   return done;
+}
+
+void StepRules::remember_steps(ProcId process, std::span<const Step> steps) {
+  if (known_steps_.size() >= max_known_terms ||
+      step_pool_.size() + steps.size() > max_known_steps) {
+    known_steps_.clear();
+    step_pool_.clear();
+  }
+  if (steps.size() > max_known_steps) return;
+  known_steps_[process.value] = {static_cast<std::uint32_t>(step_pool_.size()),
+                                 static_cast<std::uint32_t>(steps.size())};
+  step_pool_.insert(step_pool_.end(), steps.begin(), steps.end());
 }
 
 bool StepRules::step_term(ProcId process, Steps& out) {

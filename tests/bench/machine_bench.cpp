@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
+#include <cstdint>
 #include <string>
 
 #include "perentie/base/source.hpp"
@@ -17,6 +18,9 @@ namespace perentie::semantics {
 namespace {
 
 const char* const philosophers = "corpus/philosophers/philosophers.csp";
+// Left out where ../shared is absent.
+const char* const robochart =
+    "../shared/data/varanus/oracles/inspection-rover-ras/robochart-version/comparison.csp";
 
 // On Linux the resident size is given in KiB.
 double peak_megabytes() {
@@ -27,14 +31,15 @@ double peak_megabytes() {
 
 enum class By { machine, step_rules };
 
-// From the text of a file to the counts of `process` with `(n)` after it.
+// From the text of a file to the counts of a process, with `(n)` after its name if there is an n.
 void count(benchmark::State& state, By by, const std::string& path, const std::string& name) {
   const auto file_text = base::read_file(path);
   if (!file_text.text) {
     state.SkipWithError("there is no such file");
     return;
   }
-  const std::string process = name + "(" + std::to_string(state.range(0)) + ")";
+  const std::int64_t n = state.range(0);
+  const std::string process = n == 0 ? name : name + "(" + std::to_string(n) + ")";
   lts::Count found;
   for (auto _ : state) {
     base::SourceMap sources;
@@ -70,6 +75,12 @@ BENCHMARK_CAPTURE(count, step_rules, By::step_rules, philosophers, "SYSTEM")
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(count, machine, By::machine, philosophers, "SYSTEM")
     ->DenseRange(5, 10)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(count, robochart_step_rules, By::step_rules, robochart, "normal(RCSystem)")
+    ->Arg(0)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(count, robochart_machine, By::machine, robochart, "normal(RCSystem)")
+    ->Arg(0)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(count, machine_hidden, By::machine, philosophers, "MEALS")
     ->Arg(8)

@@ -59,6 +59,7 @@ class StepRules {
   std::optional<ProcId> settle_operands(ProcId process);
   std::optional<ProcId> unfold(ProcId call);
   bool step(ProcId process, Steps& out);
+  void remember_steps(ProcId process, std::span<const Step> steps);
   bool step_term(ProcId process, Steps& out);
   bool step_call(ProcId process, Steps& out);
   bool external_choice(ProcId process, Steps& out);
@@ -95,6 +96,15 @@ class StepRules {
   std::unordered_set<std::uint32_t> unfolding_;              // calls that are being stepped
   std::unordered_map<std::uint32_t, bool> only_terminates_;  // by process
   std::unordered_map<std::uint32_t, ProcId> settled_;        // by process
+  // What operands of earlier states did, as most states differ from another in one operand. Both
+  // maps are bounded and emptied when they are full.
+  struct StepRun {
+    std::uint32_t first;
+    std::uint32_t count;
+  };
+  std::unordered_map<std::uint32_t, StepRun> known_steps_;  // by operand, of step_pool_
+  Steps step_pool_;
+  std::unordered_map<std::uint32_t, ProcId> settled_operands_;  // by process
   std::optional<base::LimitReached> limit_;
 };
 
