@@ -51,6 +51,38 @@ TEST(LtsTest, NormalFormsHaveNoInvisibleEvents) {
               ::testing::Not(HasSubstr("tau")));
 }
 
+TEST(LtsTest, CompressesAndSaysTheSizes) {
+  const TemporaryFolder folder;
+  const std::string model =
+      folder.file("m.csp",
+                  "channel a, b, c\nP = a -> (b -> STOP [] ((c -> STOP) \\ {})) [] a -> c -> STOP\n"
+                  "R = a -> b -> R\nQ = R \\ {b}\n");
+  const Outcome outcome = perentie({"lts", model, "-p", "Q", "--compress", "dbisim"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.output, "des (0,1,1)\n(0,\"a\",0)\n");
+  EXPECT_THAT(outcome.errors,
+              HasSubstr("2 states, 2 transitions; dbisim: 1 states, 1 transitions"));
+  for (const char* name : {"sbisim", "wbisim", "tau_loop_factor", "diamond", "normal"}) {
+    EXPECT_EQ(perentie({"lts", model, "-p", "P", "--compress", name}).exit_code, 0) << name;
+  }
+  EXPECT_EQ(perentie({"lts", model, "-p", "P", "--compress", "magic"}).exit_code, 2);
+  EXPECT_EQ(perentie({"lts", model, "-p", "P", "--compress", "normal", "--normal"}).exit_code, 2);
+}
+
+TEST(LtsTest, ReadsAutFiles) {
+  const TemporaryFolder folder;
+  const std::string graph = folder.file("g.aut", "des (0,2,3)\n(0,\"i\",1)\n(1,\"a\",2)\n");
+  EXPECT_EQ(perentie({"lts", graph, "--tau", "i", "--compress", "wbisim"}).output,
+            "des (0,1,2)\n(0,\"a\",1)\n");
+  EXPECT_EQ(perentie({"lts", graph, "-f", "fsm"}).output, "---\n\n\n\n---\n1 2 \"i\"\n2 3 \"a\"\n");
+  EXPECT_THAT(perentie({"lts", graph, "-f", "graphml"}).output, HasSubstr("<graphml"));
+  EXPECT_EQ(perentie({"lts", graph, "-p", "P"}).exit_code, 2);
+  EXPECT_EQ(perentie({"lts", graph, "--state-names"}).exit_code, 2);
+  EXPECT_EQ(perentie({"lts", rover}).exit_code, 2) << "a script without --process";
+  EXPECT_EQ(perentie({"lts", folder.file("bad.aut", "des (0")}).exit_code, 5);
+  EXPECT_EQ(perentie({"lts", "absent.aut"}).exit_code, 5);
+}
+
 TEST(LtsTest, AnExhaustedBudgetWritesNothing) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "rover.aut";
