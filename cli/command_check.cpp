@@ -163,6 +163,30 @@ std::optional<std::vector<std::size_t>> chosen(const Options& options, std::size
   return numbers;
 }
 
+// The values of the script's `print` lines: on standard output, or into `list`.
+ExitCode show_prints(semantics::Script& script, const Options& options, Input& input,
+                     Console& console, Json& list) {
+  ExitCode code = ExitCode::ok;
+  for (const semantics::ScriptPrint& print : semantics::prints_of(script.tree())) {
+    if (!print.expression) continue;  // its text does not parse, which was reported
+    const auto value = script.evaluate(print.expression, input.diagnostics);
+    console.print(input.diagnostics, input.sources);
+    if (!value) {
+      code = worse(code, script.limit() ? Outcome::inconclusive : Outcome::error);
+      if (const auto limit = script.limit()) {
+        console.error(fmt::format("inconclusive: {}", base::describe(*limit)));
+      }
+    } else if (options.format == "json") {
+      list.push_back({{"line", input.sources.position(print.span.begin).line},
+                      {"expression", print.text},
+                      {"value", *value}});
+    } else {
+      console.result(fmt::format("print {}: {}\n", print.text, *value));
+    }
+  }
+  return code;
+}
+
 ExitCode run(const Options& options, Console& console) {
   Input input;
   ExitCode code = ExitCode::ok;
@@ -171,10 +195,14 @@ ExitCode run(const Options& options, Console& console) {
   const auto assertions = semantics::assertions_of(script->tree());
   const auto numbers = chosen(options, assertions.size(), console);
   if (!numbers) return ExitCode::usage;
-  if (assertions.empty()) console.note("the script has no assertions");
+  if (assertions.empty() && semantics::prints_of(script->tree()).empty())
+    console.note("the script has no assertions and no prints");
   lts::ExploreOptions exploration{.limits = options.budget.limits()};
   exploration.progress = [&console](const lts::ExploreProgress& p) { console.progress(p); };
-  code = ExitCode::ok;
+  script->set_limits(exploration.limits);
+  Json prints = Json::array();
+  code = options.numbers.empty() ? show_prints(*script, options, input, console, prints)
+                                 : ExitCode::ok;
   Json list = Json::array();
   for (const std::size_t number : *numbers) {
     const semantics::ScriptAssertion& assertion = assertions[number - 1];
@@ -197,8 +225,10 @@ ExitCode run(const Options& options, Console& console) {
                     compression));
   }
   if (options.format == "json") {
-    const Json report{
-        {"schema", "perentie.check/1"}, {"file", options.file}, {"assertions", std::move(list)}};
+    const Json report{{"schema", "perentie.check/1"},
+                      {"file", options.file},
+                      {"prints", std::move(prints)},
+                      {"assertions", std::move(list)}};
     console.result(report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
   }
   return code;

@@ -12,6 +12,7 @@
 #include "perentie/semantics/types.hpp"
 #include "prelude.hpp"
 #include "show_definitions.hpp"
+#include "syntax_children.hpp"
 #include "types/signatures.hpp"
 
 namespace perentie::semantics {
@@ -226,6 +227,26 @@ std::optional<std::string> Script::definitions(ProcId process, base::Diagnostics
 
 std::string Script::show(ProcId process, std::size_t max_length) const {
   return show_process(impl_->machine->show_context(), process, max_length);
+}
+
+bool Script::names_timed_constants(parser::ExprId expression) const {
+  const Resolution& resolution = impl_->resolver.result();
+  std::vector<SyntaxNode> stack{{SyntaxNode::Kind::expr, expression.value}};
+  while (!stack.empty()) {
+    const SyntaxNode node = stack.back();
+    stack.pop_back();
+    if (node.kind == SyntaxNode::Kind::expr && resolution.of_expr[node.id]) {
+      const SymbolId id = resolution.of_expr[node.id];
+      const Symbol& symbol = resolution.symbols[id];
+      const bool is_constant = symbol.kind == SymbolKind::builtin &&
+                               (symbol.builtin == Builtin::stop || symbol.builtin == Builtin::skip);
+      if (is_constant || id == impl_->prelude.wait || id == impl_->prelude.timed_priority) {
+        return true;
+      }
+    }
+    append_children(impl_->tree, node, stack);
+  }
+  return false;
 }
 
 std::vector<std::string> Script::channel_names() const {

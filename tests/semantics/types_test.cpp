@@ -120,6 +120,15 @@ TEST(TypesTest, TypesThatNestTooDeeplyAreReported) {
   EXPECT_EQ(codes_of(text + "y = x2200 == x2200"), "T005");
 }
 
+TEST(TypesTest, TypesThatGrowBeyondMeasureAreReported) {
+  std::string text = "f0(x) = (x, x)\n";
+  for (int i = 1; i <= 40; ++i) {
+    const std::string last = "f" + std::to_string(i - 1) + "(x)";
+    text += "f" + std::to_string(i) + "(x) = (" + last + ", " + last + ")\n";
+  }
+  EXPECT_EQ(codes_of(text), "T005");
+}
+
 // 2^60 parts, of which 60 are different.
 TEST(TypesTest, SharedPartsOfTypesAreSeenOnce) {
   std::string text = "x0 = 1\n";

@@ -389,6 +389,12 @@ TypeRef TypeChecker::Impl::instance_of(SymbolId symbol, Span span) {
   mono(symbol);
   const Scheme& scheme = of_symbol[symbol.value];
   if (scheme.variables.empty()) return scheme.type;
+  if (types.size() > max_types) {
+    if (!std::exchange(is_exhausted, true)) {
+      report(codes::type_too_deep, span, "the types of this script are too large");
+    }
+    return types.any();
+  }
   const TypeRef instance = types.instantiate(scheme.type, scheme.variables);
   for (const TypeRef dot : types.dots_in(instance)) pending_dots.push_back({dot, span});
   return instance;

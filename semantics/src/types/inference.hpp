@@ -46,6 +46,10 @@ struct TypeChecker::Impl {
 
   std::vector<bool> is_part_of_dot;  // by PatternId: of a dot inside a dot
 
+  // Types can double with every definition, as `f(x) = (g(x), g(x))` does.
+  static constexpr std::size_t max_types = 8'000'000;
+  bool is_exhausted = false;  // it was reported
+
   // One declaration of a script, wherever it stands.
   struct Item {
     DeclId decl;

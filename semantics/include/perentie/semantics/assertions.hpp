@@ -14,6 +14,7 @@ struct ScriptAssertion {
   std::string text;  ///< as tools name it: without `assert`
   base::Span span;
   parser::Assertion assertion;
+  bool in_timed_section = false;
 };
 
 struct ScriptPrint {

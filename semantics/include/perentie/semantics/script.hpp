@@ -60,6 +60,9 @@ class Script {
   std::optional<ProcId> process(parser::ExprId expression, parser::ExprId tau_priority,
                                 base::Diagnostics& diagnostics);
 
+  /// Whether an expression of the script names STOP, SKIP, WAIT or timed_priority, which are other
+  /// processes in a timed section.
+  bool names_timed_constants(parser::ExprId expression) const;
   /// The transitions of a process by the step rules. The script must outlive the system.
   TermSystem terms(ProcId process, base::Diagnostics& diagnostics);
   /// The same process as a compiled machine (`machine.hpp`), where that is worth it. Nothing is
