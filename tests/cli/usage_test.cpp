@@ -19,11 +19,11 @@ TEST(UsageTest, WrongCommandLines) {
   const std::string rover = "corpus/rover/rover.csp";
   for (const Wrong& wrong : {
            Wrong{{}, "a subcommand is needed"},
-           {{"check"}, "no subcommand `check`"},
+           {{"chekc"}, "no subcommand `chekc`"},
            {{"monitor", "--no-such-option"}, "--no-such-option"},
            {{"monitor", "corpus/rover/pass.yaml", "--mode", "lax"}, "--mode: lax not in"},
            {{"monitor", "corpus/rover/pass.yaml", "--format", "xml"}, "--format: xml not in"},
-           {{"lts", rover}, "--process is required"},
+           {{"lts", rover}, "--process says which one is meant"},
            {{"lts", "-p", "STOP"}, "FILE is required"},
            {{"lts", rover, "-p", "STOP", "--max-states", "many"}, "`many` is not a positive"},
            {{"lts", rover, "-p", "STOP", "--max-states", "0"}, "`0` is not a positive"},
