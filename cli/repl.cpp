@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "perentie/base/text.hpp"
+#include "perentie/semantics/assertions.hpp"
 
 namespace perentie::cli {
 namespace {
@@ -18,6 +19,7 @@ struct CommandInfo {
 };
 
 constexpr auto commands = std::to_array<CommandInfo>({
+    {"assertions", "", "the assertions of the script, as `perentie check` numbers them"},
     {"help", "", "this list"},
     {"load", "FILE", "load a script; definitions made with `let` are forgotten"},
     {"processes", "", "the processes of the script"},
@@ -147,6 +149,13 @@ void Repl::show_processes() {
   }
 }
 
+void Repl::show_assertions() {
+  std::size_t number = 0;
+  for (const auto& assertion : semantics::assertions_of(session_->script->tree())) {
+    console_.result(fmt::format("{}. {}\n", ++number, assertion.text));
+  }
+}
+
 void Repl::help() const {
   console_.result("An expression is evaluated; `let f(x) = x + 1` adds a definition.\n");
   for (const CommandInfo& c : commands) {
@@ -164,7 +173,12 @@ bool Repl::command(std::string_view line) {
     if (!word.empty() && c.word.starts_with(word)) meant.push_back(&c);
   }
   if (meant.size() != 1) {
-    console_.error(fmt::format("there is no command `:{}`; `:help` lists them", word));
+    std::vector<std::string_view> words;
+    for (const CommandInfo& c : commands) words.push_back(c.word);
+    const auto near = base::nearest_words(word, words);
+    console_.error(fmt::format(
+        "there is no command `:{}`; {}", word,
+        near.empty() ? "`:help` lists them" : fmt::format("did you mean `:{}`?", near.front())));
     return true;
   }
   const std::string_view chosen = meant.front()->word;
@@ -173,6 +187,7 @@ bool Repl::command(std::string_view line) {
     return true;
   }
   if (chosen == "quit") return false;
+  if (chosen == "assertions") show_assertions();
   if (chosen == "help") help();
   if (chosen == "load") load(argument);
   if (chosen == "processes") show_processes();

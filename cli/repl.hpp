@@ -37,6 +37,7 @@ class Repl {
   void show_type(const std::string& expression);
   void define(const std::string& definitions);
   void show_processes();
+  void show_assertions();
   void help() const;
   bool command(std::string_view line);
   std::string in_scope(const std::string& expression) const;

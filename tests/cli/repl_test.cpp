@@ -52,6 +52,9 @@ TEST(ReplTest, EveryErrorIsShown) {
 TEST(ReplTest, CommandsMayBeCutShort) {
   const Outcome outcome = repl(":l corpus/rover/rover.csp\n:p\n:q\n1\n");
   EXPECT_EQ(outcome.output, "ROVER\nROVER_INSPECTING\nROVER_ABORT\nROVER_SYSTEM\n");
+  const Outcome assertions = repl(":a\n", {"corpus/check/philosophers.csp"});
+  EXPECT_EQ(assertions.output.find("1. Table :[deadlock free [F]]\n2. "), 0U);
+  EXPECT_NE(repl(":relaod\n").errors.find("did you mean `:reload`?"), std::string::npos);
   const Outcome help = repl(":help\n:nothing\n:type\n:reload\n");
   EXPECT_NE(help.output.find(":processes"), std::string::npos);
   EXPECT_NE(help.errors.find("no command `:nothing`"), std::string::npos);
