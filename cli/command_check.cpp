@@ -25,38 +25,6 @@ struct Options {
   BudgetOptions budget;
 };
 
-std::string_view word(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::holds:
-      return "holds";
-    case Outcome::fails:
-      return "fails";
-    case Outcome::inconclusive:
-      return "inconclusive";
-    case Outcome::error:
-      return "error";
-  }
-  return {};
-}
-
-std::string_view word(Witness::Kind kind) {
-  switch (kind) {
-    case Witness::Kind::event:
-      return "event";
-    case Witness::Kind::acceptance:
-      return "acceptance";
-    case Witness::Kind::divergence:
-      return "divergence";
-    case Witness::Kind::deadlock:
-      return "deadlock";
-    case Witness::Kind::nondeterminism:
-      return "nondeterminism";
-    case Witness::Kind::missing_event:
-      return "missing event";
-  }
-  return {};
-}
-
 std::string set_of(const std::vector<std::string>& events) {
   return fmt::format("{{{}}}", fmt::join(events, ", "));
 }
@@ -101,7 +69,7 @@ std::string as_text(std::size_t number, std::size_t line, const std::string& ass
                     const CheckResult& result) {
   std::string text =
       fmt::format("{}. {}: {}  (line {}; {} states, {} transitions, {:.2f} s)\n", number, assertion,
-                  word(result.outcome), line, base::with_thousands(result.counts.states),
+                  name_of(result.outcome), line, base::with_thousands(result.counts.states),
                   base::with_thousands(result.counts.transitions), result.seconds);
   if (result.limit) text += fmt::format("   {}\n", base::describe(*result.limit));
   if (!result.witness) return text;
@@ -117,7 +85,7 @@ std::string as_text(std::size_t number, std::size_t line, const std::string& ass
 Json as_json(std::size_t line, const std::string& assertion, const CheckResult& result) {
   Json json{{"line", line},
             {"assertion", assertion},
-            {"outcome", word(result.outcome)},
+            {"outcome", name_of(result.outcome)},
             {"visited_states", result.counts.states},
             {"visited_transitions", result.counts.transitions},
             {"visited_plys", result.counts.plys},
@@ -125,7 +93,7 @@ Json as_json(std::size_t line, const std::string& assertion, const CheckResult& 
   if (result.limit) json["limit"] = base::describe(*result.limit);
   if (result.witness) {
     const Witness& w = *result.witness;
-    Json witness{{"kind", word(w.kind)}, {"trace", w.trace}};
+    Json witness{{"kind", name_of(w.kind)}, {"trace", w.trace}};
     if (!w.event.empty()) witness["event"] = w.event;
     if (w.kind == Witness::Kind::acceptance || !w.offered.empty()) witness["offered"] = w.offered;
     if (!w.allowed.empty()) witness["allowed"] = w.allowed;

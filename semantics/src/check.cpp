@@ -8,6 +8,7 @@
 #include "perentie/lts/normalise.hpp"
 #include "perentie/lts/specifications.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
+#include "perentie/semantics/process_system.hpp"
 
 namespace perentie::semantics {
 namespace {
@@ -40,8 +41,7 @@ class Checker {
  private:
   using Found = lts::Counterexample<ProcId>;
 
-  // --- Ends
-  // ---------------------------------------------------------------------------------------
+  // Ends
 
   void stop(const std::optional<base::LimitReached>& limit) {
     result_.outcome = limit ? Outcome::inconclusive : Outcome::error;
@@ -59,8 +59,7 @@ class Checker {
     result_.witness = std::move(witness);
   }
 
-  // --- Processes
-  // ----------------------------------------------------------------------------------
+  // Processes
 
   std::optional<ProcId> process(ExprId expr) {
     if (assertion_.in_timed_section && script_.names_timed_constants(expr)) {
@@ -80,10 +79,9 @@ class Checker {
   }
 
   std::optional<lts::NormalLts> normal_form(ProcId process, bool with_acceptances) {
-    TermSystem terms = script_.terms(process, diagnostics_);
-    const auto exploration = lts::explore(terms, options_);
-    if (!exploration.complete()) {
-      stop(exploration.limit ? exploration.limit : terms.limit());
+    const auto exploration = explore_process(script_, process, options_, diagnostics_);
+    if (!exploration.complete) {
+      stop(exploration.limit);
       return std::nullopt;
     }
     auto normalisation = lts::normalise(
@@ -105,17 +103,17 @@ class Checker {
   template <class Specification, class Explain>
   void refine(const Specification& specification, ProcId process, SemanticModel model,
               Explain explain) {
-    TermSystem terms = script_.terms(process, diagnostics_);
-    const auto found = lts::refine(specification, terms, model, options_);
+    const auto found =
+        refine_process(script_, process, specification, model, options_, diagnostics_);
     result_.counts = found.counts;
     if (!found.counterexample && !found.complete()) {
-      stop(found.limit ? found.limit : terms.limit());
+      stop(found.limit);
       return;
     }
     result_.outcome = Outcome::holds;
     if (!found.counterexample) return;
     const Found& counterexample = *found.counterexample;
-    names_ = terms.label_names();
+    names_ = script_.label_names();
     Witness witness{.kind = Witness::Kind::event,
                     .trace = words(counterexample.trace),
                     .state = script_.show(counterexample.states.back())};
@@ -135,8 +133,7 @@ class Checker {
     refute(std::move(witness));
   }
 
-  // --- Claims
-  // -------------------------------------------------------------------------------------
+  // Claims
 
   static std::optional<SemanticModel> semantic_model(parser::Model model) {
     switch (model) {
@@ -273,6 +270,38 @@ class Checker {
 };
 
 }  // namespace
+
+std::string_view name_of(CheckResult::Outcome outcome) {
+  switch (outcome) {
+    case Outcome::holds:
+      return "holds";
+    case Outcome::fails:
+      return "fails";
+    case Outcome::inconclusive:
+      return "inconclusive";
+    case Outcome::error:
+      return "error";
+  }
+  return {};
+}
+
+std::string_view name_of(Witness::Kind kind) {
+  switch (kind) {
+    case Witness::Kind::event:
+      return "event";
+    case Witness::Kind::acceptance:
+      return "acceptance";
+    case Witness::Kind::divergence:
+      return "divergence";
+    case Witness::Kind::deadlock:
+      return "deadlock";
+    case Witness::Kind::nondeterminism:
+      return "nondeterminism";
+    case Witness::Kind::missing_event:
+      return "missing event";
+  }
+  return {};
+}
 
 CheckResult check(Script& script, const ScriptAssertion& assertion,
                   const lts::ExploreOptions& options, base::Diagnostics& diagnostics) {

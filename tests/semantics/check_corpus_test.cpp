@@ -55,38 +55,6 @@ std::map<std::size_t, Expectation> expectations(const fs::path& path) {
   return found;
 }
 
-std::string name(CheckResult::Outcome outcome) {
-  switch (outcome) {
-    case CheckResult::Outcome::holds:
-      return "holds";
-    case CheckResult::Outcome::fails:
-      return "fails";
-    case CheckResult::Outcome::inconclusive:
-      return "inconclusive";
-    case CheckResult::Outcome::error:
-      break;
-  }
-  return "error";
-}
-
-std::string name(Witness::Kind kind) {
-  switch (kind) {
-    case Witness::Kind::event:
-      return "event";
-    case Witness::Kind::acceptance:
-      return "acceptance";
-    case Witness::Kind::divergence:
-      return "divergence";
-    case Witness::Kind::deadlock:
-      return "deadlock";
-    case Witness::Kind::nondeterminism:
-      return "nondeterminism";
-    case Witness::Kind::missing_event:
-      break;
-  }
-  return "missing event";
-}
-
 // The states after a trace of names, with τ; empty: the process cannot do it.
 std::set<ProcId> after(TermSystem& system, const std::vector<std::string>& trace) {
   std::set<ProcId> states{system.initial()};
@@ -180,7 +148,7 @@ TEST_P(CheckCorpusTest, EveryAssertionComesOutAsItsCommentSays) {
     const Expectation& expectation = expected.at(position.line);
     base::Diagnostics diagnostics;
     const CheckResult result = check(script->script(), assertion, {}, diagnostics);
-    EXPECT_EQ(name(result.outcome), expectation.outcome)
+    EXPECT_EQ(name_of(result.outcome), expectation.outcome)
         << base::render_all(diagnostics, script->sources());
     if (!expectation.counts.empty()) {
       EXPECT_EQ(fmt::format("{}/{}/{}", result.counts.states, result.counts.transitions,
@@ -192,7 +160,7 @@ TEST_P(CheckCorpusTest, EveryAssertionComesOutAsItsCommentSays) {
         (result.outcome == CheckResult::Outcome::fails) != assertion.assertion.negated;
     ASSERT_EQ(result.witness.has_value(), is_refuted);
     if (!result.witness) continue;
-    EXPECT_EQ(name(result.witness->kind), expectation.kind);
+    EXPECT_EQ(name_of(result.witness->kind), expectation.kind);
     if (expectation.trace) {
       EXPECT_EQ(fmt::format("<{}>", fmt::join(result.witness->trace, ", ")), *expectation.trace);
     }

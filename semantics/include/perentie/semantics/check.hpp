@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "perentie/base/diagnostic.hpp"
@@ -53,6 +54,10 @@ struct CheckResult {
   std::optional<Witness> witness = {};
   std::optional<base::LimitReached> limit = {};
 };
+
+/// As reports and recorded results name them: `inconclusive`, `missing event`.
+std::string_view name_of(CheckResult::Outcome outcome);
+std::string_view name_of(Witness::Kind kind);
 
 CheckResult check(Script& script, const ScriptAssertion& assertion,
                   const lts::ExploreOptions& options, base::Diagnostics& diagnostics);
