@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "components.hpp"
 #include "evaluate/machine.hpp"
 #include "lower/lower.hpp"
 #include "machine/compile.hpp"
@@ -231,6 +232,20 @@ std::string Script::show(ProcId process, std::size_t max_length) const {
 
 bool Script::names_timed_constants(parser::ExprId expression) const {
   const Resolution& resolution = impl_->resolver.result();
+std::string Script::name(ProcId process) const {
+  constexpr std::size_t max_length = 200;
+  switch (impl_->processes.kind(process)) {
+    case ProcKind::call:
+      return show(process, max_length);
+    case ProcKind::compression: {
+      const auto builtin = static_cast<Builtin>(impl_->processes.word(process, 0));
+      return std::string(info(builtin).name) + "(…)";
+    }
+    default:
+      return {};
+  }
+}
+
   std::vector<SyntaxNode> stack{{SyntaxNode::Kind::expr, expression.value}};
   while (!stack.empty()) {
     const SyntaxNode node = stack.back();
@@ -299,12 +314,17 @@ std::string Script::core_listing() const {
 
 struct TermSystem::Impl {
   Impl(Script::Impl& owner, base::Diagnostics& diagnostics)
-      : script(owner), rules(*owner.machine, owner.events, owner.processes, diagnostics) {}
+      : script(owner),
+        rules(*owner.machine, owner.events, owner.processes, diagnostics),
+        components(owner.events, owner.processes, rules),
+        sink(diagnostics) {}
 
   Script::Impl& script;
   StepRules rules;
   bool has_initial = true;  // false: it was reported why not
 };
+  Components components;
+  base::Diagnostics& sink;
 
 TermSystem::TermSystem(std::unique_ptr<Impl> impl, ProcId initial)
     : impl_(std::move(impl)), initial_(initial) {}
@@ -350,3 +370,30 @@ std::size_t TermSystem::memory_bytes() const { return impl_->script.machine->mem
 std::optional<base::LimitReached> TermSystem::limit() const { return impl_->rules.limit(); }
 
 }  // namespace perentie::semantics
+std::vector<ProcId> TermSystem::components(ProcId state) { return impl_->components.of(state); }
+
+std::optional<std::vector<TransitionShare>> TermSystem::shares(ProcId from, lts::Label label,
+                                                               ProcId to) {
+  return impl_->components.shares(from, label, to);
+}
+
+std::vector<std::size_t> TermSystem::partners(ProcId state, std::size_t ready,
+                                              lts::Label event) const {
+  return impl_->components.partners(state, ready, event);
+}
+
+std::optional<base::Span> TermSystem::definition(ProcId state) const {
+  if (impl_->script.processes.kind(state) != ProcKind::call) return std::nullopt;
+  return impl_->script.machine->definition_span(state);
+}
+
+ProcId TermSystem::body(ProcId state) {
+  constexpr int max_names = 1000;
+  for (int i = 0; i < max_names && impl_->script.processes.kind(state) == ProcKind::call; ++i) {
+    const auto body = impl_->script.machine->unfold(state, impl_->sink);
+    if (!body) break;
+    state = *body;
+  }
+  return state;
+}
+

@@ -78,6 +78,9 @@ class Script {
   std::vector<std::string> process_names() const;
 
   /// What the script defines at its top level and in its modules, with types, in order of
+  /// The name of a process: of a call, the call; of a compression such as `normal(…)` no more than
+  /// that; empty if it has none (CSPM reference 7.3.6).
+  std::string name(ProcId process) const;
   /// definition.
   struct TypedName {
     std::string name;
@@ -107,6 +110,13 @@ class TermSystem {
 
   ~TermSystem();
   TermSystem(TermSystem&&) noexcept;
+/// What one component does in a transition of the whole.
+struct TransitionShare {
+  std::size_t component;
+  lts::Label label;
+  ProcId target;
+};
+
 
   /// Fails like `successors`: then the term itself is the only state.
   State initial() const { return initial_; }
@@ -127,5 +137,18 @@ class TermSystem {
   std::unique_ptr<Impl> impl_;
   ProcId initial_;
 };
+  /// The running operands of the operator that a state is. Empty: it is no such operator.
+  std::vector<ProcId> components(ProcId state);
+  /// The components' transitions that make up a transition between states. Nothing: the operator
+  /// does not stay in place.
+  std::optional<std::vector<TransitionShare>> shares(ProcId from, lts::Label label, ProcId to);
+  /// The components that must perform together an event that component `ready` offers. Without
+  /// `ready`: the event is outside its alphabet, it can never perform it.
+  std::vector<std::size_t> partners(ProcId state, std::size_t ready, lts::Label event) const;
+  /// Where the name is defined that a state is. Nothing: the state is no name.
+  std::optional<base::Span> definition(ProcId state) const;
+  /// What a name stands for; any other state stands for itself.
+  ProcId body(ProcId state);
+
 
 }  // namespace perentie::semantics
