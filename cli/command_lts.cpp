@@ -176,14 +176,14 @@ ExitCode make_lts(const Options& options, Console& console) {
   const auto built = build_lts(*script, options.process, "--process", limits, input, console, code);
   if (!built) return code;
   if (built->limit) {
-    console.note(size_of(built->lts()) + " so far");
+    console.note(size_of(built->lts) + " so far");
     return inconclusive(*built->limit, console);
   }
   std::function<std::string(lts::State)> state_name;
   if (options.state_names) {
-    state_name = [&](lts::State s) { return script->show(built->exploration.states[s.value]); };
+    state_name = [&](lts::State s) { return script->show(built->term(s)); };
   }
-  return finish(built->lts(), options, state_name, console);
+  return finish(built->lts, options, state_name, console);
 }
 
 }  // namespace

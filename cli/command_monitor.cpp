@@ -209,8 +209,8 @@ ExitCode run_monitor(const Options& options, Console& console) {
   subject.trace = task->trace;
   subject.mode = task->mode;
   if (built->limit) {
-    subject.states = built->lts().state_count();
-    subject.transitions = built->lts().edge_count();
+    subject.states = built->lts.state_count();
+    subject.transitions = built->lts.edge_count();
     return report_inconclusive(
         options, subject,
         fmt::format("{} while the model was explored", base::describe(*built->limit)), console);
@@ -223,13 +223,13 @@ ExitCode run_monitor(const Options& options, Console& console) {
                                   script->channel_names(), input.diagnostics);
     console.print(input.diagnostics, input.sources);
     if (!visible) return ExitCode::usage;
-    hidden = lts::hide(built->lts(),
-                       monitor::labels_not_of_channels(built->lts().label_names(), *visible));
+    hidden = lts::hide(built->lts,
+                       monitor::labels_not_of_channels(built->lts.label_names(), *visible));
   }
-  const lts::Lts& process = hidden ? *hidden : built->lts();
+  const lts::Lts& process = hidden ? *hidden : built->lts;
   subject.states = process.state_count();
   subject.transitions = process.edge_count();
-  if (const auto failed = failed_gate(options, *task, built->lts(), events, limits, console)) {
+  if (const auto failed = failed_gate(options, *task, built->lts, events, limits, console)) {
     return report_inconclusive(options, subject, *failed, console);
   }
   lts::Normalisation normalisation = lts::normalise(process, {.limits = limits});
@@ -256,7 +256,7 @@ ExitCode run_monitor(const Options& options, Console& console) {
   const monitor::RunResult result = monitor::run_trace(stream, model, task->mode);
   console.print(input.diagnostics, input.sources);
   for (const lts::State state : result.model_states) {
-    subject.model_position.push_back(script->show(built->exploration.states[state.value]));
+    subject.model_position.push_back(script->show(built->term(state)));
   }
   print_report(options, result, subject, console);
   if (result.verdict == monitor::RunVerdict::violation) return ExitCode::refuted;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "perentie/monitor/diagnostic_codes.hpp"
+#include "perentie/semantics/process_system.hpp"
 
 namespace perentie::cli {
 namespace {
@@ -32,11 +33,11 @@ std::uint64_t default_max_memory() {
 }
 
 // Nothing is known of the process but that it has an initial state.
-lts::Exploration<semantics::ProcId> unexplored() {
+lts::Lts unexplored() {
   lts::LtsBuilder builder(std::make_shared<const lts::LabelNames>(
       lts::LabelNames{std::string(lts::tau_name), std::string(lts::tick_name)}));
   builder.add_state();
-  return {.lts = std::move(builder).finish(lts::State{0}), .states = {}, .limit = {}};
+  return std::move(builder).finish(lts::State{0});
 }
 
 }  // namespace
@@ -103,24 +104,22 @@ std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string
       script.process(process, input.diagnostics, origin);
   if (!initial) {
     console.print(input.diagnostics, input.sources);
-    if (const auto limit = script.limit()) return ProcessLts{unexplored(), limit};
+    if (const auto limit = script.limit()) return ProcessLts{unexplored(), {}, limit};
     return std::nullopt;
   }
-  semantics::TermSystem terms = script.terms(*initial, input.diagnostics);
   lts::ExploreOptions options{.limits = limits};
   options.progress = [&console](const lts::ExploreProgress& p) { console.progress(p); };
-  ProcessLts result{lts::explore(terms, options), {}};
+  auto found = semantics::explore_process(script, *initial, options, input.diagnostics);
   console.clear_progress();
-  result.limit = result.exploration.limit ? result.exploration.limit : terms.limit();
   console.print(input.diagnostics, input.sources);
-  if (result.exploration.failed && !result.limit) return std::nullopt;
+  if (found.failed && !found.limit) return std::nullopt;
   for (const std::string& compression : script.compressions_taken_as_identity()) {
     console.note(
         fmt::format("`{}` is not applied yet: no answer depends on it, the number of "
                     "states does",
                     compression));
   }
-  return result;
+  return ProcessLts{std::move(found.lts), std::move(found.term), found.limit};
 }
 
 }  // namespace perentie::cli

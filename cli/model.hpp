@@ -12,7 +12,7 @@
 #include "console.hpp"
 #include "exit_codes.hpp"
 #include "perentie/base/diagnostic.hpp"
-#include "perentie/lts/explore.hpp"
+#include "perentie/lts/lts.hpp"
 #include "perentie/semantics/script.hpp"
 
 namespace perentie::cli {
@@ -46,10 +46,9 @@ std::unique_ptr<semantics::Script> load_script(const std::string& path, Input& i
 
 /// A process as an explicit LTS, with the terms that its states are.
 struct ProcessLts {
-  lts::Exploration<semantics::ProcId> exploration;
-  std::optional<base::LimitReached> limit;  ///< of exploration or evaluation
-
-  const lts::Lts& lts() const { return exploration.lts; }
+  lts::Lts lts;
+  std::function<semantics::ProcId(lts::State)> term;  ///< of a state
+  std::optional<base::LimitReached> limit;            ///< of exploration or evaluation
 };
 
 /// Evaluates and explores. Nothing: `code` says what to exit with, and the reason was printed. A

@@ -148,4 +148,15 @@ ProcId ProcStore::prioritise_partial(EventSetId below_tau, EventRelationId block
   return intern(ProcKind::prioritise_partial, {below_tau.value, blocked_by.value, operand.value});
 }
 
+std::vector<ProcId> ProcStore::operands(ProcId process) const {
+  std::vector<ProcId> found;
+  const auto places = process_operands(kind(process));
+  if (!places) return found;
+  const auto all = words(process);
+  for (std::size_t i = places->first; i < all.size(); i += places->stride) {
+    found.push_back(ProcId{all[i]});
+  }
+  return found;
+}
+
 }  // namespace perentie::semantics

@@ -226,12 +226,12 @@ std::optional<std::string> Script::definitions(ProcId process, base::Diagnostics
                           [&](ProcId call) { return impl_->machine->unfold(call, diagnostics); });
 }
 
+std::shared_ptr<const lts::LabelNames> Script::label_names() const { return impl_->label_names(); }
+
 std::string Script::show(ProcId process, std::size_t max_length) const {
   return show_process(impl_->machine->show_context(), process, max_length);
 }
 
-bool Script::names_timed_constants(parser::ExprId expression) const {
-  const Resolution& resolution = impl_->resolver.result();
 std::string Script::name(ProcId process) const {
   constexpr std::size_t max_length = 200;
   switch (impl_->processes.kind(process)) {
@@ -246,6 +246,8 @@ std::string Script::name(ProcId process) const {
   }
 }
 
+bool Script::names_timed_constants(parser::ExprId expression) const {
+  const Resolution& resolution = impl_->resolver.result();
   std::vector<SyntaxNode> stack{{SyntaxNode::Kind::expr, expression.value}};
   while (!stack.empty()) {
     const SyntaxNode node = stack.back();
@@ -321,10 +323,10 @@ struct TermSystem::Impl {
 
   Script::Impl& script;
   StepRules rules;
-  bool has_initial = true;  // false: it was reported why not
-};
   Components components;
   base::Diagnostics& sink;
+  bool has_initial = true;  // false: it was reported why not
+};
 
 TermSystem::TermSystem(std::unique_ptr<Impl> impl, ProcId initial)
     : impl_(std::move(impl)), initial_(initial) {}
@@ -348,6 +350,10 @@ MachineCompilation Script::machine(ProcId process, const MachineOptions& options
   return compile_machine(process, parts, options);
 }
 
+ProcId Script::term(const CompiledMachine& machine, std::span<const std::uint64_t> state) {
+  return machine_term(machine, state, impl_->processes);
+}
+
 std::uint64_t TermSystem::state_hash(State state) const { return base::hash_mix(0, state.value); }
 
 std::shared_ptr<const lts::LabelNames> TermSystem::label_names() const {
@@ -369,7 +375,6 @@ std::size_t TermSystem::memory_bytes() const { return impl_->script.machine->mem
 
 std::optional<base::LimitReached> TermSystem::limit() const { return impl_->rules.limit(); }
 
-}  // namespace perentie::semantics
 std::vector<ProcId> TermSystem::components(ProcId state) { return impl_->components.of(state); }
 
 std::optional<std::vector<TransitionShare>> TermSystem::shares(ProcId from, lts::Label label,
@@ -397,3 +402,4 @@ ProcId TermSystem::body(ProcId state) {
   return state;
 }
 
+}  // namespace perentie::semantics

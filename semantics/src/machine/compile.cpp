@@ -1,13 +1,13 @@
 #include "machine/compile.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "machine/leaf.hpp"
 #include "machine/rules.hpp"
 #include "machine/tables.hpp"
-#include "perentie/lts/explore.hpp"
 
 namespace perentie::semantics {
 namespace {
@@ -15,29 +15,9 @@ namespace {
 // Operators in operators: a bound on recursion; what lies deeper is a leaf.
 constexpr std::uint32_t max_depth = 500;
 
-// One leaf as a `lts::TransitionSystem`. Its labels are events, whose names nobody asks a leaf for.
-class LeafSystem {
- public:
-  using State = ProcId;
-
-  LeafSystem(StepRules& rules, const EventTable& events, ProcId initial)
-      : rules_(rules), events_(events), initial_(initial) {}
-
-  State initial() const { return initial_; }
-  bool successors(State state, StepRules::Steps& out) { return rules_.successors(state, out); }
-  std::uint64_t state_hash(State state) const { return base::hash_mix(0, state.value); }
-  std::shared_ptr<const lts::LabelNames> label_names() const {
-    auto names = std::make_shared<lts::LabelNames>(events_.size());
-    (*names)[lts::tau.value] = lts::tau_name;
-    (*names)[lts::tick.value] = lts::tick_name;
-    return names;
-  }
-
- private:
-  StepRules& rules_;
-  const EventTable& events_;
-  ProcId initial_;
-};
+bool is_leaf(const ProcStore& processes, ProcId term, std::uint32_t depth) {
+  return depth >= max_depth || !is_compiled_operator(processes.kind(term));
+}
 
 class Compiler {
  public:
@@ -54,68 +34,61 @@ class Compiler {
     find_leaves(*root, 0);
     if (leaf_terms_.size() < options_.min_leaves) return give_up();
     for (const ProcId term : leaf_terms_) {
-      if (!leaf_graphs_.contains(term.value) && !explore_leaf(term)) return give_up();
+      if (!leaf_graphs_.contains(term.value) && !add_leaf(term)) return give_up();
     }
     const auto rules = rules_of(*root, 0);
     if (!rules) return give_up();
-    std::vector<const lts::Lts*> leaves;
+    std::vector<const LeafGraph*> leaves;
     for (const ProcId term : leaf_terms_) leaves.push_back(&leaf_graphs_.at(term.value));
-    auto machine = make_tables(leaves, builder_, *rules);
+    auto machine = make_tables(leaves, builder_, *rules, joins_termination_);
     if (!machine) return give_up();
+    machine->root = *root;
     machine->label_names = parts_.label_names();
     return {std::move(machine), {}};
   }
 
  private:
-  MachineCompilation give_up() const { return {std::nullopt, budget_.check_time()}; }
-
-  bool is_leaf(ProcId term, std::uint32_t depth) const {
-    return depth >= max_depth || !is_compiled_operator(parts_.processes.kind(term));
-  }
-
-  std::vector<ProcId> operands(ProcId term) const {
-    const auto places = process_operands(parts_.processes.kind(term));
-    const auto words = parts_.processes.words(term);
-    std::vector<ProcId> found;
-    for (std::size_t i = places->first; i < words.size(); i += places->stride) {
-      found.push_back(ProcId{words[i]});
-    }
-    return found;
+  MachineCompilation give_up() const {
+    return {std::nullopt, budget_.check_time(), has_large_leaves_};
   }
 
   void find_leaves(ProcId term, std::uint32_t depth) {
-    if (is_leaf(term, depth)) {
+    if (is_leaf(parts_.processes, term, depth)) {
       leaf_terms_.push_back(term);
       return;
     }
-    for (const ProcId operand : operands(term)) find_leaves(operand, depth + 1);
+    switch (parts_.processes.kind(term)) {
+      case ProcKind::hide:
+      case ProcKind::project:
+      case ProcKind::rename:
+      case ProcKind::compression:
+        break;
+      default:
+        joins_termination_ = true;
+    }
+    for (const ProcId operand : parts_.processes.operands(term)) find_leaves(operand, depth + 1);
   }
 
-  bool explore_leaf(ProcId term) {
-    base::Limits limits = options_.limits;
-    limits.max_states =
-        std::min(options_.max_leaf_states, limits.max_states.value_or(options_.max_leaf_states));
-    if (limits.timeout) {
-      const auto used =
-          std::chrono::milliseconds(static_cast<std::int64_t>(budget_.elapsed_seconds() * 1000.0));
-      limits.timeout = std::max(*limits.timeout - used, std::chrono::milliseconds(1));
+  bool add_leaf(ProcId term) {
+    LeafResult leaf = explore_leaf(steps_, term, options_.max_leaf_states - leaf_states_, budget_);
+    if (!leaf.graph) {
+      has_large_leaves_ = leaf.failure == LeafFailure::too_many_states;
+      return false;
     }
-    LeafSystem system(steps_, parts_.events, term);
-    auto exploration = lts::explore(system, {.limits = limits, .progress = {}});
-    if (!exploration.complete()) return false;
-    leaf_graphs_.emplace(term.value, std::move(exploration.lts));
+    leaf_states_ += leaf.graph->state_count();
+    leaf_graphs_.emplace(term.value, std::move(*leaf.graph));
     return true;
   }
 
   // The leaves come in the order of `find_leaves`.
   std::optional<RuleBuilder::Rules> rules_of(ProcId term, std::uint32_t depth) {
-    if (is_leaf(term, depth)) {
-      std::vector<EventId> events = leaf_graphs_.at(term.value).alphabet();
-      events.insert(events.begin(), lts::tau);
+    if (is_leaf(parts_.processes, term, depth)) {
+      std::vector<EventId> events = leaf_graphs_.at(term.value).labels();
+      std::erase(events, lts::tick);
       return builder_.leaf(next_leaf_++, events);
     }
     std::vector<RuleBuilder::Rules> found;
-    for (const ProcId operand : operands(term)) {
+    for (const ProcId operand : parts_.processes.operands(term)) {
       auto rules = rules_of(operand, depth + 1);
       if (!rules) return std::nullopt;
       found.push_back(std::move(*rules));
@@ -129,12 +102,53 @@ class Compiler {
   base::Diagnostics unheard_;  // what leaves report: the step rules say it again if it matters
   StepRules steps_;
   RuleBuilder builder_;
-  std::vector<ProcId> leaf_terms_;                           // in order, equal ones repeated
-  std::unordered_map<std::uint32_t, lts::Lts> leaf_graphs_;  // by term
+  std::vector<ProcId> leaf_terms_;                            // in order, equal ones repeated
+  std::unordered_map<std::uint32_t, LeafGraph> leaf_graphs_;  // by term
+  std::uint64_t leaf_states_ = 0;                             // of all of them
+  bool has_large_leaves_ = false;
+  bool joins_termination_ = false;
   std::uint32_t next_leaf_ = 0;
 };
 
+// Puts the terms of the leaves, one after the other, into the place of those in `term`.
+class TermMaker {
+ public:
+  TermMaker(const CompiledMachine& machine, std::span<const std::uint64_t> state,
+            ProcStore& processes)
+      : machine_(machine), state_(state), processes_(processes) {}
+
+  ProcId make(ProcId term, std::uint32_t depth) {
+    if (is_leaf(processes_, term, depth)) return leaf();
+    const auto places = *process_operands(processes_.kind(term));
+    const auto stored = processes_.words(term);
+    std::vector<std::uint32_t> words(stored.begin(), stored.end());
+    for (std::size_t i = places.first; i < words.size(); i += places.stride) {
+      words[i] = make(ProcId{words[i]}, depth + 1).value;
+    }
+    return has_terminated_ ? processes_.stop() : processes_.rebuild(term, words);
+  }
+
+ private:
+  ProcId leaf() {
+    const CompiledMachine::Leaf& leaf = machine_.leaves[next_++];
+    const ProcId term = machine_.row_terms[machine_row(leaf, state_)];
+    has_terminated_ = !term;  // then all leaves have
+    return has_terminated_ ? processes_.stop() : term;
+  }
+
+  const CompiledMachine& machine_;
+  std::span<const std::uint64_t> state_;
+  ProcStore& processes_;
+  std::size_t next_ = 0;  // leaf
+  bool has_terminated_ = false;
+};
+
 }  // namespace
+
+ProcId machine_term(const CompiledMachine& machine, std::span<const std::uint64_t> state,
+                    ProcStore& processes) {
+  return TermMaker(machine, state, processes).make(machine.root, 0);
+}
 
 MachineCompilation compile_machine(ProcId process, const MachineParts& parts,
                                    const MachineOptions& options) {

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 
 #include "perentie/semantics/machine.hpp"
 #include "perentie/semantics/process.hpp"
@@ -24,5 +25,9 @@ struct MachineParts {
 
 MachineCompilation compile_machine(ProcId process, const MachineParts& parts,
                                    const MachineOptions& options);
+
+/// The term that a packed state stands for.
+ProcId machine_term(const CompiledMachine& machine, std::span<const std::uint64_t> state,
+                    ProcStore& processes);
 
 }  // namespace perentie::semantics

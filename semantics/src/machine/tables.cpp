@@ -13,15 +13,20 @@ constexpr std::uint32_t word_bits = 64;
 // Offsets into the tables are 32 bits wide.
 constexpr std::size_t max_entries = std::numeric_limits<std::uint32_t>::max();
 
-std::vector<std::uint32_t> states_by_label(const lts::Lts& leaf) {
-  std::vector<std::uint32_t> counts;  // by label: the states that have it
+// By label: how many states of a leaf have an edge with it.
+std::vector<std::uint32_t> states_by_label(const LeafGraph& leaf) {
+  std::vector<std::uint32_t> counts;
+  std::vector<std::uint32_t> last_state;  // by label: that was counted, and one
   for (std::uint32_t s = 0; s < leaf.state_count(); ++s) {
-    lts::Label last;
-    for (const lts::Edge& edge : leaf.edges(lts::State{s})) {
-      if (edge.label == last) continue;
-      last = edge.label;
-      if (last.value >= counts.size()) counts.resize(last.value + 1);
-      ++counts[last.value];
+    for (const lts::Edge& edge : leaf.edges(s)) {
+      const std::uint32_t label = edge.label.value;
+      if (label >= counts.size()) {
+        counts.resize(label + 1);
+        last_state.resize(label + 1);
+      }
+      if (last_state[label] == s + 1) continue;
+      last_state[label] = s + 1;
+      ++counts[label];
     }
   }
   return counts;
@@ -29,14 +34,18 @@ std::vector<std::uint32_t> states_by_label(const lts::Lts& leaf) {
 
 class TableMaker {
  public:
-  TableMaker(const std::vector<const lts::Lts*>& leaves, const RuleBuilder& builder)
-      : leaves_(leaves), builder_(builder), plans_(leaves.size()) {}
+  TableMaker(const std::vector<const LeafGraph*>& leaves, const RuleBuilder& builder,
+             bool joins_termination)
+      : leaves_(leaves),
+        builder_(builder),
+        joins_termination_(joins_termination),
+        plans_(leaves.size()) {}
 
   std::optional<CompiledMachine> make(const RuleBuilder::Rules& rules) {
-    for (const lts::Lts* leaf : leaves_) {
+    for (const LeafGraph* leaf : leaves_) {
       if (!counts_.contains(leaf)) counts_.emplace(leaf, states_by_label(*leaf));
     }
-    terminates_ = std::all_of(leaves_.begin(), leaves_.end(), [&](const lts::Lts* leaf) {
+    terminates_ = std::all_of(leaves_.begin(), leaves_.end(), [&](const LeafGraph* leaf) {
       const auto& counts = counts_.at(leaf);
       return counts.size() > lts::tick.value && counts[lts::tick.value] > 0;
     });
@@ -70,7 +79,7 @@ class TableMaker {
 
   // A leaf's terminated state is the one after its own.
   std::uint32_t state_count(std::size_t leaf) const {
-    return static_cast<std::uint32_t>(leaves_[leaf]->state_count()) + (terminates_ ? 1 : 0);
+    return leaves_[leaf]->state_count() + (terminates_ ? 1 : 0);
   }
 
   bool place_leaves() {
@@ -89,7 +98,6 @@ class TableMaker {
       const std::uint32_t shift = bits == 0 ? 0 : used;
       machine_.leaves.push_back(
           {word, shift, (std::uint64_t{1} << bits) - 1, static_cast<std::uint32_t>(row)});
-      machine_.initial[word] |= std::uint64_t{leaves_[l]->initial().value} << shift;
       used += bits;
       row += state_count(l);
       if (row >= max_entries) return false;
@@ -142,6 +150,8 @@ class TableMaker {
       for (std::uint32_t s = 0; s < state_count(l); ++s) {
         machine_.lead_rows.push_back(static_cast<std::uint32_t>(machine_.leads.size()));
         machine_.follow_rows.push_back(static_cast<std::uint32_t>(machine_.follows.size()));
+        machine_.row_terms.push_back(s < leaves_[l]->state_count() ? leaves_[l]->states[s]
+                                                                   : ProcId{});
         if (s < leaves_[l]->state_count()) add_row(l, s);
         if (std::max(machine_.leads.size(), machine_.follows.size()) > max_entries) return false;
       }
@@ -154,8 +164,12 @@ class TableMaker {
   void add_row(std::uint32_t l, std::uint32_t state) {
     const LeafPlan& plan = plans_[l];
     const std::size_t first_follow = machine_.follows.size();
-    const auto omega = static_cast<std::uint32_t>(leaves_[l]->state_count());
-    for (const lts::Edge& edge : leaves_[l]->edges(lts::State{state})) {
+    const auto omega = leaves_[l]->state_count();
+    bool has_ticked = false;
+    for (const lts::Edge& edge : leaves_[l]->edges(state)) {
+      // Parallel operators terminate once, in however many ways their operands do.
+      if (edge.label == lts::tick && joins_termination_ && std::exchange(has_ticked, true))
+        continue;
       const std::uint32_t target = edge.label == lts::tick ? omega : edge.target.value;
       const std::uint64_t change = std::uint64_t{state ^ target} << machine_.leaves[l].shift;
       if (const auto run = plan.runs.find(edge.label); run != plan.runs.end()) {
@@ -170,26 +184,28 @@ class TableMaker {
                      [](const auto& a, const auto& b) { return a.port < b.port; });
   }
 
-  const std::vector<const lts::Lts*>& leaves_;
+  const std::vector<const LeafGraph*>& leaves_;
   const RuleBuilder& builder_;
-  std::vector<LeafPlan> plans_;                                   // by leaf
-  std::map<const lts::Lts*, std::vector<std::uint32_t>> counts_;  // by label
+  bool joins_termination_;
+  std::vector<LeafPlan> plans_;                                    // by leaf
+  std::map<const LeafGraph*, std::vector<std::uint32_t>> counts_;  // by label
   bool terminates_ = false;
   CompiledMachine machine_;
 };
 
 }  // namespace
 
-std::optional<CompiledMachine> make_tables(const std::vector<const lts::Lts*>& leaves,
+std::optional<CompiledMachine> make_tables(const std::vector<const LeafGraph*>& leaves,
                                            const RuleBuilder& builder,
-                                           const RuleBuilder::Rules& rules) {
-  return TableMaker(leaves, builder).make(rules);
+                                           const RuleBuilder::Rules& rules,
+                                           bool joins_termination) {
+  return TableMaker(leaves, builder, joins_termination).make(rules);
 }
 
 std::uint64_t CompiledMachine::memory_bytes() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   return bytes(leaves) + bytes(leaders) + bytes(lead_rows) + bytes(follow_rows) + bytes(leads) +
-         bytes(follows) + bytes(rules) + bytes(partners);
+         bytes(follows) + bytes(rules) + bytes(partners) + bytes(row_terms);
 }
 
 }  // namespace perentie::semantics

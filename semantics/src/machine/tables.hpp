@@ -9,15 +9,16 @@
 #include <optional>
 #include <vector>
 
+#include "machine/leaf.hpp"
 #include "machine/rules.hpp"
-#include "perentie/lts/lts.hpp"
 #include "perentie/semantics/machine.hpp"
 
 namespace perentie::semantics {
 
-/// `leaves` points to the LTS of each leaf; none may be null. Nothing: the states are too wide.
-std::optional<CompiledMachine> make_tables(const std::vector<const lts::Lts*>& leaves,
+/// `leaves` points to the graph of each leaf; none may be null. `joins_termination`: some operator
+/// waits for the ✓ of its operands. Nothing: the states are too wide.
+std::optional<CompiledMachine> make_tables(const std::vector<const LeafGraph*>& leaves,
                                            const RuleBuilder& builder,
-                                           const RuleBuilder::Rules& rules);
+                                           const RuleBuilder::Rules& rules, bool joins_termination);
 
 }  // namespace perentie::semantics

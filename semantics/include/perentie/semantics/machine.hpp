@@ -3,8 +3,8 @@
 // The parallel operators, hiding and renaming above the recursion of a process stay in place while
 // it runs, so they are compiled away: a state is one state for each leaf, packed into a few words,
 // and a rule says which leaves perform which events together and what the whole then performs.
-// Everything else is a leaf, explored by the step rules. Reachable states and edges are those of
-// the step rules; the same transition may fire less often. FDR calls this a supercombinator (CSPM
+// Everything else is a leaf, explored by the step rules. Reachable states and transitions are those
+// of the step rules, repetitions included, in another order. FDR calls this a supercombinator (CSPM
 // reference 6.1; Gibson-Robinson et al., FDR3, TACAS 2014).
 #pragma once
 
@@ -13,6 +13,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,13 +22,14 @@
 #include "perentie/base/hash.hpp"
 #include "perentie/base/limits.hpp"
 #include "perentie/lts/transition_system.hpp"
+#include "perentie/semantics/process.hpp"
 
 namespace perentie::semantics {
 
 struct MachineOptions {
-  /// Time and cancellation bound the compilation; the rest bounds each leaf.
+  /// Time, cancellation and memory; `max_states` does not matter.
   base::Limits limits = {};
-  /// Larger leaves are left to the step rules, together with the whole process.
+  /// Leaves with more states, together, are left to the step rules with the whole process.
   std::uint64_t max_leaf_states = 100'000;
   /// The same for processes with more rules.
   std::size_t max_rules = 1'000'000;
@@ -74,6 +77,8 @@ struct CompiledMachine {
   std::vector<Rule> rules;
   std::vector<Partner> partners;
   std::vector<std::uint64_t> initial;  ///< packed
+  ProcId root;                         ///< the initial term
+  std::vector<ProcId> row_terms;       ///< by row; none: terminated
   std::shared_ptr<const lts::LabelNames> label_names;
 
   /// The words of a packed state.
@@ -85,7 +90,14 @@ struct MachineCompilation {
   /// Nothing: the step rules are to be used, or `limit` was reached.
   std::optional<CompiledMachine> machine;
   std::optional<base::LimitReached> limit;  ///< time or cancellation
+  bool has_large_leaves = false;            ///< there may be a machine if leaves may be larger
 };
+
+/// The row of a leaf's state in the tables.
+inline std::size_t machine_row(const CompiledMachine::Leaf& leaf,
+                               std::span<const std::uint64_t> state) {
+  return leaf.first_row + ((state[leaf.word] >> leaf.shift) & leaf.mask);
+}
 
 /// A machine with states of `words` words as a `lts::TransitionSystem`. Keeps a reference.
 template <std::size_t words>
@@ -105,7 +117,7 @@ class MachineSystem {
   bool successors(const State& state, Steps& out) const {
     for (const std::uint32_t leader : machine_->leaders) {
       const CompiledMachine::Leaf& leaf = machine_->leaves[leader];
-      const std::size_t row = row_of(leaf, state);
+      const std::size_t row = machine_row(leaf, state);
       const std::uint32_t end = machine_->lead_rows[row + 1];
       for (std::uint32_t i = machine_->lead_rows[row]; i < end; ++i) {
         const CompiledMachine::Lead& lead = machine_->leads[i];
@@ -128,15 +140,11 @@ class MachineSystem {
   std::uint64_t memory_bytes() const { return machine_->memory_bytes(); }
 
  private:
-  std::size_t row_of(const CompiledMachine::Leaf& leaf, const State& state) const {
-    return leaf.first_row + ((state[leaf.word] >> leaf.shift) & leaf.mask);
-  }
-
   /// What a partner can do in a rule.
   std::pair<const CompiledMachine::Follow*, const CompiledMachine::Follow*> moves(
       const CompiledMachine::Partner& partner, const State& state) const {
     constexpr std::ptrdiff_t short_row = 8;
-    const std::size_t row = row_of(machine_->leaves[partner.leaf], state);
+    const std::size_t row = machine_row(machine_->leaves[partner.leaf], state);
     const CompiledMachine::Follow* first = machine_->follows.data() + machine_->follow_rows[row];
     const CompiledMachine::Follow* last = machine_->follows.data() + machine_->follow_rows[row + 1];
     if (last - first > short_row) {
@@ -181,16 +189,22 @@ class MachineSystem {
 /// The widest packed state that `with_system` can take.
 inline constexpr std::size_t max_machine_width = 32;
 
+/// Calls `use` with the number of words, as a `std::integral_constant`, that states are to have.
+template <class Use>
+auto with_width(const CompiledMachine& machine, Use use) {
+  const std::size_t width = machine.width();
+  PERENTIE_CHECK(width <= max_machine_width, "a machine is too wide");
+  if (width <= 1) return use(std::integral_constant<std::size_t, 1>());
+  if (width <= 2) return use(std::integral_constant<std::size_t, 2>());
+  if (width <= 4) return use(std::integral_constant<std::size_t, 4>());
+  if (width <= 8) return use(std::integral_constant<std::size_t, 8>());
+  return use(std::integral_constant<std::size_t, max_machine_width>());
+}
+
 /// Calls `use` with the machine as a transition system of the right width.
 template <class Use>
 auto with_system(const CompiledMachine& machine, Use use) {
-  const std::size_t width = machine.width();
-  PERENTIE_CHECK(width <= max_machine_width, "a machine is too wide");
-  if (width <= 1) return use(MachineSystem<1>(machine));
-  if (width <= 2) return use(MachineSystem<2>(machine));
-  if (width <= 4) return use(MachineSystem<4>(machine));
-  if (width <= 8) return use(MachineSystem<8>(machine));
-  return use(MachineSystem<max_machine_width>(machine));
+  return with_width(machine, [&](auto width) { return use(MachineSystem<width()>(machine)); });
 }
 
 }  // namespace perentie::semantics

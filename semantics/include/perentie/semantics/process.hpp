@@ -76,6 +76,8 @@ class ProcStore {
   std::span<const std::uint32_t> words(ProcId process) const { return terms_.words(process.value); }
   std::uint32_t word(ProcId process, std::size_t index) const { return words(process)[index]; }
   ProcId operand(ProcId process, std::size_t index) const { return ProcId{word(process, index)}; }
+  /// All process operands in order; none: the kind has none.
+  std::vector<ProcId> operands(ProcId process) const;
 
   std::size_t size() const { return terms_.size(); }
   std::size_t memory_bytes() const { return terms_.memory_bytes(); }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,7 @@
 namespace perentie::semantics {
 
 class TermSystem;
+struct CompiledMachine;
 struct MachineCompilation;
 struct MachineOptions;
 
@@ -68,9 +70,17 @@ class Script {
   /// The same process as a compiled machine (`machine.hpp`), where that is worth it. Nothing is
   /// reported: without a machine the step rules are to be used.
   MachineCompilation machine(ProcId process, const MachineOptions& options);
+  /// The term that a packed state of such a machine stands for.
+  ProcId term(const CompiledMachine& machine, std::span<const std::uint64_t> state);
+
+  /// The names of all events that were used so far, by label.
+  std::shared_ptr<const lts::LabelNames> label_names() const;
 
   /// A process term as FDR prints it, cut to `max_length` characters.
   std::string show(ProcId process, std::size_t max_length = 200) const;
+  /// The name of a process: of a call, the call; of a compression such as `normal(…)` no more than
+  /// that; empty if it has none (CSPM reference 7.3.6).
+  std::string name(ProcId process) const;
   /// The declared channels as printed, in order of declaration.
   std::vector<std::string> channel_names() const;
   /// The names of the definitions whose value is a process, in order of definition, without
@@ -78,9 +88,6 @@ class Script {
   std::vector<std::string> process_names() const;
 
   /// What the script defines at its top level and in its modules, with types, in order of
-  /// The name of a process: of a call, the call; of a compression such as `normal(…)` no more than
-  /// that; empty if it has none (CSPM reference 7.3.6).
-  std::string name(ProcId process) const;
   /// definition.
   struct TypedName {
     std::string name;
@@ -103,13 +110,6 @@ class Script {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A process of a script as a `lts::TransitionSystem`: its states are process terms.
-class TermSystem {
- public:
-  using State = ProcId;
-
-  ~TermSystem();
-  TermSystem(TermSystem&&) noexcept;
 /// What one component does in a transition of the whole.
 struct TransitionShare {
   std::size_t component;
@@ -117,6 +117,13 @@ struct TransitionShare {
   ProcId target;
 };
 
+/// A process of a script as a `lts::TransitionSystem`: its states are process terms.
+class TermSystem {
+ public:
+  using State = ProcId;
+
+  ~TermSystem();
+  TermSystem(TermSystem&&) noexcept;
 
   /// Fails like `successors`: then the term itself is the only state.
   State initial() const { return initial_; }
@@ -126,17 +133,10 @@ struct TransitionShare {
   std::shared_ptr<const lts::LabelNames> label_names() const;
   std::size_t memory_bytes() const;
 
+  ProcId term(State state) const { return state; }
   /// Which budget ended `successors`, if one did.
   std::optional<base::LimitReached> limit() const;
 
- private:
-  friend class Script;
-  struct Impl;
-  TermSystem(std::unique_ptr<Impl> impl, ProcId initial);
-
-  std::unique_ptr<Impl> impl_;
-  ProcId initial_;
-};
   /// The running operands of the operator that a state is. Empty: it is no such operator.
   std::vector<ProcId> components(ProcId state);
   /// The components' transitions that make up a transition between states. Nothing: the operator
@@ -150,5 +150,13 @@ struct TransitionShare {
   /// What a name stands for; any other state stands for itself.
   ProcId body(ProcId state);
 
+ private:
+  friend class Script;
+  struct Impl;
+  TermSystem(std::unique_ptr<Impl> impl, ProcId initial);
+
+  std::unique_ptr<Impl> impl_;
+  ProcId initial_;
+};
 
 }  // namespace perentie::semantics

@@ -1,0 +1,142 @@
+// with_process_system: a process as the transition system that computes it fastest.
+//
+// A compiled machine is far faster than the step rules once it is there, but its leaves may be
+// larger than the whole process. So small leaves are tried first, then the step rules up to some
+// number of states, then larger leaves, and so on. Which system answers depends on sizes alone, not
+// on time; states and transitions are the same in all.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "perentie/base/limits.hpp"
+#include "perentie/lts/explore.hpp"
+#include "perentie/lts/refine.hpp"
+#include "perentie/semantics/machine.hpp"
+#include "perentie/semantics/script.hpp"
+
+namespace perentie::semantics {
+
+/// A machine that knows its terms, with the members that `TermSystem` has.
+template <std::size_t words>
+class MachineProcess : public MachineSystem<words> {
+ public:
+  using State = typename MachineSystem<words>::State;
+
+  MachineProcess(Script& script, std::shared_ptr<const CompiledMachine> machine)
+      : MachineSystem<words>(*machine), script_(&script), machine_(std::move(machine)) {}
+
+  ProcId term(const State& state) const { return script_->term(*machine_, state); }
+  std::optional<base::LimitReached> limit() const { return std::nullopt; }
+
+ private:
+  Script* script_;
+  std::shared_ptr<const CompiledMachine> machine_;
+};
+
+/// Leaves of so many states are tried, then the step rules up to so many states of the whole.
+struct ProcessTrial {
+  std::uint64_t leaf_states;
+  std::uint64_t states;
+};
+inline constexpr ProcessTrial process_trials[] = {
+    {1'000, 50'000},
+    {20'000, 1'000'000},
+    {1'000'000, 50'000'000},
+};
+
+/// Calls `use(system, options)` and returns its result, which is of one type for all systems and
+/// has a member `limit`, the budget that ran out. It may be called again with another system if
+/// that is the number of states. `system` is a `TermSystem` or a `MachineProcess`.
+template <class Use>
+auto with_process_system(Script& script, ProcId process, const lts::ExploreOptions& options,
+                         base::Diagnostics& diagnostics, Use use,
+                         std::span<const ProcessTrial> trials = process_trials) {
+  constexpr std::uint64_t any = std::numeric_limits<std::uint64_t>::max();
+  const base::Budget budget(options.limits);
+  const auto rest = [&](std::uint64_t max_states) {
+    lts::ExploreOptions left = options;
+    if (left.limits.timeout) {
+      const auto used = static_cast<std::int64_t>(budget.elapsed_seconds() * 1000.0);
+      left.limits.timeout = std::max(*left.limits.timeout - std::chrono::milliseconds(used),
+                                     std::chrono::milliseconds(1));
+    }
+    if (max_states != any) {
+      left.limits.max_states = std::min(left.limits.max_states.value_or(max_states), max_states);
+    }
+    return left;
+  };
+  const auto use_terms = [&](std::uint64_t max_states) {
+    TermSystem system = script.terms(process, diagnostics);
+    return use(system, rest(max_states));
+  };
+  for (const ProcessTrial& trial : trials) {
+    MachineCompilation compilation =
+        script.machine(process, {.limits = rest(any).limits, .max_leaf_states = trial.leaf_states});
+    if (compilation.machine) {
+      const auto machine = std::make_shared<const CompiledMachine>(std::move(*compilation.machine));
+      return with_width(*machine, [&](auto width) {
+        MachineProcess<width()> system(script, machine);
+        return use(system, rest(any));
+      });
+    }
+    if (!compilation.has_large_leaves) break;
+    auto result = use_terms(trial.states);
+    const bool is_cut = result.limit && result.limit->kind == base::LimitKind::states &&
+                        options.limits.max_states.value_or(any) > trial.states;
+    if (!is_cut) return result;
+  }
+  return use_terms(any);
+}
+
+/// A process as a graph, whatever system it came from.
+struct ProcessExploration {
+  lts::Lts lts;
+  std::function<ProcId(lts::State)> term;  ///< of a state; needs the script
+  bool complete;
+  bool failed;  ///< some transitions could not be computed; the reason was reported
+  std::optional<base::LimitReached> limit;
+};
+
+/// `lts::explore` on the fastest system.
+ProcessExploration explore_process(Script& script, ProcId process,
+                                   const lts::ExploreOptions& options,
+                                   base::Diagnostics& diagnostics);
+
+/// `lts::refine` on the fastest system, with terms in the place of its states.
+template <class Specification>
+lts::RefineResult<ProcId> refine_process(Script& script, ProcId process,
+                                         const Specification& specification,
+                                         lts::SemanticModel model,
+                                         const lts::ExploreOptions& options,
+                                         base::Diagnostics& diagnostics) {
+  return with_process_system(
+      script, process, options, diagnostics, [&](auto& system, const lts::ExploreOptions& bounds) {
+        auto found = lts::refine(specification, system, model, bounds);
+        lts::RefineResult<ProcId> result{.counts = found.counts,
+                                         .counterexample = {},
+                                         .limit = found.limit ? found.limit : system.limit(),
+                                         .failed = found.failed};
+        if (found.counterexample) {
+          auto& from = *found.counterexample;
+          auto& to = result.counterexample.emplace(
+              lts::Counterexample<ProcId>{static_cast<lts::Counterexample<ProcId>::Kind>(from.kind),
+                                          std::move(from.trace),
+                                          {},
+                                          from.event,
+                                          std::move(from.offered),
+                                          from.node});
+          for (const auto& state : from.states) to.states.push_back(system.term(state));
+        }
+        return result;
+      });
+}
+
+}  // namespace perentie::semantics

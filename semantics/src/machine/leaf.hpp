@@ -1,0 +1,44 @@
+// A leaf of a machine: everything that one of its processes can reach, as an explicit graph.
+//
+// Rows are kept as the step rules give them, with repeated edges, because FDR's counts of
+// transitions include repetitions (CSPM reference 6.3.2).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "perentie/base/limits.hpp"
+#include "perentie/lts/lts.hpp"
+#include "perentie/lts/runs.hpp"
+#include "perentie/semantics/step.hpp"
+
+namespace perentie::semantics {
+
+/// The initial state is 0.
+struct LeafGraph {
+  lts::Runs<lts::Edge> rows;   ///< by state
+  std::vector<ProcId> states;  ///< their terms
+
+  std::uint32_t state_count() const { return static_cast<std::uint32_t>(states.size()); }
+  std::span<const lts::Edge> edges(std::uint32_t state) const { return rows[state]; }
+  /// The labels on edges, τ and ✓ among them, ascending.
+  std::vector<lts::Label> labels() const;
+};
+
+/// Why a leaf could not be made.
+enum class LeafFailure : std::uint8_t {
+  too_many_states,
+  other,  ///< a budget, or its steps cannot be computed: the step rules may never come so far
+};
+
+struct LeafResult {
+  std::optional<LeafGraph> graph;
+  LeafFailure failure = LeafFailure::other;
+};
+
+LeafResult explore_leaf(StepRules& rules, ProcId initial, std::uint64_t max_states,
+                        const base::Budget& budget);
+
+}  // namespace perentie::semantics
