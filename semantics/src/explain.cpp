@@ -1,6 +1,7 @@
 #include "perentie/semantics/explain.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
 
 #include "perentie/base/overload.hpp"
@@ -51,7 +52,9 @@ class Explainer {
     name_process(found.implementation, script_.name(*process));
     found.revealed_trace = revealed(run);
     if (ending.kind == Behaviour::Kind::acceptance) {
-      add_blocked(run.states.back(), 0, found.blocked);
+      const ProcId last =
+          run.labels.empty() ? system_->terms().body(run.states[0]) : run.states.back();
+      add_blocked(last, found.implementation, found.blocked);
     }
     add_specification(found);
     return found;
@@ -204,38 +207,95 @@ class Explainer {
 
   // --- Who prevents what ---
 
-  void add_blocked(ProcId state, std::size_t nesting, std::vector<Blocked>& found) {
+  void add_blocked(ProcId state, const Behaviour& whole, std::vector<Blocked>& found) {
     TermSystem& terms = system_->terms();
-    const ProcId term = nesting == 0 ? terms.body(state) : state;
-    const std::vector<ProcId> components = terms.components(term);
-    if (nesting == max_nesting) return;
+    const std::vector<ProcId> components = terms.components(state);
+    if (components.size() != whole.components.size()) return;
     std::vector<std::vector<lts::Label>> offers;
     for (const ProcId component : components) {
       offers.push_back(system_->offers(component).value_or(std::vector<lts::Label>{}));
     }
-    std::vector<lts::Label> told;
     for (std::size_t i = 0; i < components.size(); ++i) {
       for (const lts::Label label : offers[i]) {
-        const auto partners = terms.partners(term, i, label);
-        Blocked blocked{system_->name(label), short_name(components[i]), {}};
-        for (const std::size_t p : partners) {
-          if (!std::ranges::binary_search(offers[p], label)) {
-            blocked.refusing.push_back(short_name(components[p]));
-          }
-        }
+        const auto partners = terms.partners(state, i, label);
         const bool is_outside = !std::ranges::binary_search(partners, i);
-        if (is_outside) blocked.refusing.clear();
-        if ((blocked.refusing.empty() && !is_outside) || std::ranges::count(told, label) > 0) {
-          continue;
+        Blocked blocked{
+            system_->name(label), leaf_that_offers(components[i], label, whole.components[i]), {}};
+        for (const std::size_t p : partners) {
+          if (is_outside || std::ranges::binary_search(offers[p], label)) continue;
+          add_leaves_that_know(components[p], label, whole.components[p], blocked.refusing);
         }
-        told.push_back(label);
-        found.push_back(std::move(blocked));
+        if (is_outside || !blocked.refusing.empty()) found.push_back(std::move(blocked));
       }
-      add_blocked(components[i], nesting + 1, found);
+      add_blocked(components[i], whole.components[i], found);
     }
   }
 
-  std::string short_name(ProcId state) const { return script_.show(state, max_name_length); }
+  // The component of `whole`, or of one of its components, that performs the event of a state.
+  std::string leaf_that_offers(ProcId state, lts::Label label, const Behaviour& whole) {
+    const Behaviour* leaf = &whole;
+    for (std::size_t depth = 0; depth < max_nesting; ++depth) {
+      const auto components = system_->terms().components(state);
+      const auto steps = system_->steps(state);
+      const auto step =
+          std::ranges::find_if(steps, [&](const Step& s) { return s.label == label; });
+      if (components.size() != leaf->components.size() || step == steps.end()) break;
+      const auto shares = system_->terms().shares(state, label, step->target);
+      if (!shares || shares->size() != 1) break;
+      const TransitionShare& share = shares->front();
+      leaf = &leaf->components[share.component];
+      state = components[share.component];
+      label = share.label;
+    }
+    return short_name(leaf->name);
+  }
+
+  // The components that can perform an event sooner or later; if none is known to, the whole.
+  void add_leaves_that_know(ProcId state, lts::Label label, const Behaviour& whole,
+                            std::vector<std::string>& names) {
+    std::vector<std::string> found;
+    std::vector<std::pair<ProcId, const Behaviour*>> stack{{state, &whole}};
+    while (!stack.empty()) {
+      const auto [part, behaviour] = stack.back();
+      stack.pop_back();
+      const auto components = system_->terms().components(part);
+      // Only where the components' names of events are those of the whole.
+      const bool is_parallel =
+          components.size() > 1 && components.size() == behaviour->components.size();
+      if (!is_parallel) {
+        if (knows(part, label)) found.push_back(short_name(behaviour->name));
+        continue;
+      }
+      for (std::size_t i = components.size(); i-- > 0;) {
+        stack.emplace_back(components[i], &behaviour->components[i]);
+      }
+    }
+    if (found.empty()) found.push_back(short_name(whole.name));
+    names.insert(names.end(), found.begin(), found.end());
+  }
+
+  // Whether a process performs an event in one of its first states.
+  bool knows(ProcId start, lts::Label label) {
+    constexpr std::size_t max_states = 2'000;
+    std::vector<ProcId> states{start};
+    std::unordered_set<std::uint32_t> seen{start.value};
+    for (std::size_t i = 0; i < states.size() && states.size() < max_states; ++i) {
+      for (const Step& step : system_->steps(states[i])) {
+        if (step.label == label) return true;
+        if (seen.insert(step.target.value).second) states.push_back(step.target);
+      }
+    }
+    return false;
+  }
+
+  static std::string short_name(const std::string& term) {
+    std::size_t end = std::min(term.size(), max_name_length);
+    while (end > 0 && end < term.size() &&
+           (static_cast<unsigned char>(term[end]) & 0xC0U) == 0x80U) {
+      --end;  // not inside a character
+    }
+    return end == term.size() ? term : term.substr(0, end) + "...";
+  }
 
   // --- The other behaviour ---
 

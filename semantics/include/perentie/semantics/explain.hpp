@@ -29,14 +29,14 @@ struct Behaviour {
   };
 
   Kind kind = Kind::trace;
-  std::string name;  ///< of the process; empty: it has none
-  std::vector<std::string> trace;
-  std::vector<State> states;  ///< one more than the trace; empty if they are not known
-  std::string event;
-  std::vector<std::string> acceptance;
+  std::string name = {};  ///< of the process; empty: it has none
+  std::vector<std::string> trace = {};
+  std::vector<State> states = {};  ///< one more than the trace; empty if they are not known
+  std::string event = {};
+  std::vector<std::string> acceptance = {};
   std::size_t loop_start = 0;
-  std::optional<base::Span> definition;  ///< of the last state that is a name
-  std::vector<Behaviour> components;
+  std::optional<base::Span> definition = {};  ///< of the last state that is a name
+  std::vector<Behaviour> components = {};
 };
 
 /// An event that a component offers after the trace and others prevent.

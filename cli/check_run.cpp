@@ -1,0 +1,198 @@
+#include "check_run.hpp"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <iostream>
+#include <iterator>
+#include <mutex>
+#include <thread>
+
+#include "perentie/base/check.hpp"
+
+namespace perentie::cli {
+namespace {
+
+// A script is loaded so many times at most, and so many checks run side by side at most.
+constexpr std::size_t max_groups = 16;
+
+std::optional<base::FileId> read_root(const std::string& path, Input& input) {
+  if (path != "-") return input.read(path);
+  std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+  return input.sources.add("<stdin>", std::move(text));
+}
+
+// A thread with room for deep terms: the default depends on the limits of the process. If the
+// system has no thread to give, the work is not begun.
+class Worker {
+ public:
+  explicit Worker(std::function<void()> work) : work_(std::move(work)) {
+    constexpr std::size_t stack_bytes = std::size_t{64} << 20U;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, stack_bytes);
+    started_ = pthread_create(
+                   &thread_, &attributes,
+                   [](void* self) -> void* {
+                     static_cast<Worker*>(self)->work_();
+                     return nullptr;
+                   },
+                   this) == 0;
+    pthread_attr_destroy(&attributes);
+  }
+  ~Worker() {
+    if (started_) pthread_join(thread_, nullptr);
+  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  bool started() const { return started_; }
+
+ private:
+  std::function<void()> work_;
+  pthread_t thread_{};
+  bool started_ = false;
+};
+
+// The part of `items` that group `index` of `count` has; parts follow each other.
+std::span<const std::size_t> part_of(std::span<const std::size_t> items, std::size_t index,
+                                     std::size_t count) {
+  const std::size_t begin = items.size() * index / count;
+  const std::size_t end = items.size() * (index + 1) / count;
+  return items.subspan(begin, end - begin);
+}
+
+}  // namespace
+
+std::unique_ptr<CheckRun> CheckRun::load(const std::string& path, Input& input) {
+  const auto root = read_root(path, input);
+  if (!root) return nullptr;
+  std::unique_ptr<CheckRun> run(new CheckRun(input));
+  run->root_ = *root;
+  parser::ParseOptions options;
+  options.load = [&files = run->files_](const std::string& file) {
+    return files.emplace(file, base::read_file(file)).first->second;
+  };
+  run->script_ = semantics::Script::load(*root, input.sources, input.diagnostics, options);
+  if (run->script_ == nullptr) return nullptr;
+  run->assertions_ = semantics::assertions_of(run->script_->tree());
+  run->prints_ = semantics::prints_of(run->script_->tree());
+  return run;
+}
+
+std::unique_ptr<CheckRun::Copy> CheckRun::copy() const {
+  auto copy = std::make_unique<Copy>();
+  const base::SourceMap& original = input_.sources;
+  const auto root =
+      copy->input.sources.add(std::string(original.path(root_)), std::string(original.text(root_)));
+  parser::ParseOptions options;
+  options.load = [this](const std::string& file) { return files_.at(file); };
+  if (root) {
+    copy->script =
+        semantics::Script::load(*root, copy->input.sources, copy->input.diagnostics, options);
+  }
+  PERENTIE_CHECK(copy->script != nullptr, "a script that was loaded cannot be loaded again");
+  return copy;
+}
+
+PrintedValue CheckRun::evaluate(const semantics::ScriptPrint& print, const base::Limits& limits) {
+  PrintedValue printed{&print, {}, {}, {}};
+  script_->set_limits(limits);
+  printed.value = script_->evaluate(print.expression, printed.diagnostics);
+  if (!printed.value) printed.limit = script_->limit();
+  return printed;
+}
+
+CheckedAssertion CheckRun::check_one(semantics::Script& script, std::size_t number,
+                                     const lts::ExploreOptions& exploration,
+                                     const CheckOptions& options) {
+  using Outcome = semantics::CheckResult::Outcome;
+  CheckedAssertion checked{number, &assertions_[number - 1], {.outcome = Outcome::error}, {}, {}};
+  checked.result = semantics::check(script, *checked.assertion, exploration, checked.diagnostics);
+  if (options.explain && checked.result.witness) {
+    checked.explanation =
+        semantics::explain(script, *checked.assertion, *checked.result.witness,
+                           {.limits = options.limits, .with_components = options.with_components});
+  }
+  return checked;
+}
+
+void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& options,
+                     const std::function<bool(CheckedAssertion)>& consume) {
+  const std::size_t groups = std::min(numbers.size(), max_groups);
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<std::optional<CheckedAssertion>> results(numbers.size());
+  std::vector<std::vector<std::string>> compressions(groups);
+  std::mutex output;  // held while something is shown
+  std::atomic<std::size_t> next_group{0};
+  std::atomic<std::size_t> awaited{0};  // the place that is handed over next
+  std::atomic<bool> stopped{false};
+
+  const auto check_group = [&](std::size_t group) {
+    const auto part = part_of(numbers, group, groups);
+    const std::unique_ptr<Copy> own = group == 0 ? nullptr : copy();
+    semantics::Script& script = own == nullptr ? *script_ : *own->script;
+    auto place = static_cast<std::size_t>(part.data() - numbers.data());
+    for (const std::size_t number : part) {
+      if (stopped) return;
+      lts::ExploreOptions exploration{.limits = options.limits};
+      if (options.progress) {
+        exploration.progress = [&, place](const lts::ExploreProgress& progress) {
+          if (awaited != place) return;
+          const std::lock_guard shown(output);
+          options.progress(progress);
+        };
+      }
+      CheckedAssertion checked = check_one(script, number, exploration, options);
+      const std::lock_guard lock(mutex);
+      results[place++] = std::move(checked);
+      changed.notify_one();
+    }
+    compressions[group] = script.compressions_taken_as_identity();
+  };
+
+  const auto work = [&] {
+    for (std::size_t group = next_group++; group < groups; group = next_group++) check_group(group);
+  };
+  std::deque<Worker> workers;
+  const std::size_t jobs = std::min(std::max<std::size_t>(options.jobs, 1), groups);
+  for (std::size_t w = 0; w < jobs; ++w) workers.emplace_back(work);
+  if (std::ranges::none_of(workers, &Worker::started)) work();
+  for (std::size_t place = 0; place < numbers.size(); ++place) {
+    awaited = place;
+    std::optional<CheckedAssertion> checked;
+    {
+      std::unique_lock lock(mutex);
+      changed.wait(lock, [&] { return results[place].has_value(); });
+      checked.swap(results[place]);
+    }
+    const std::lock_guard shown(output);
+    if (!consume(std::move(*checked))) break;
+  }
+  stopped = true;
+  workers.clear();
+  for (const auto& names : compressions) {
+    for (const std::string& name : names) {
+      if (std::ranges::find(compressions_, name) == compressions_.end()) {
+        compressions_.push_back(name);
+      }
+    }
+  }
+}
+
+std::vector<std::string> CheckRun::compressions_taken_as_identity() const {
+  std::vector<std::string> names = compressions_;
+  for (const std::string& name : script_->compressions_taken_as_identity()) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+std::size_t default_jobs() { return std::max(std::thread::hardware_concurrency(), 1U); }
+
+}  // namespace perentie::cli

@@ -1,0 +1,87 @@
+// CheckRun: the assertions of a script, checked side by side and handed over in their order.
+//
+// The assertions are dealt into groups, and each group has a script of its own, loaded from the
+// same text: how events are numbered depends on what was evaluated before, and which counterexample
+// is found first depends on the numbers. The groups depend on the assertions alone, so the results
+// are the same for any number of workers.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model.hpp"
+#include "perentie/semantics/check.hpp"
+#include "perentie/semantics/explain.hpp"
+
+namespace perentie::cli {
+
+struct CheckedAssertion {
+  std::size_t number;  ///< from 1
+  const semantics::ScriptAssertion* assertion;
+  semantics::CheckResult result;
+  std::optional<semantics::Explanation> explanation;  ///< if asked for and there is a witness
+  base::Diagnostics diagnostics;                      ///< in the sources of the run
+};
+
+struct PrintedValue {
+  const semantics::ScriptPrint* print;
+  std::optional<std::string> value;
+  std::optional<base::LimitReached> limit;  ///< the budget that ran out
+  base::Diagnostics diagnostics;            ///< in the sources of the run
+};
+
+struct CheckOptions {
+  base::Limits limits = {};  ///< of each assertion
+  std::size_t jobs = 1;      ///< workers
+  bool explain = false;
+  bool with_components = false;  ///< in explanations
+  /// Told of the assertion that is handed over next; never called twice at the same time.
+  std::function<void(const lts::ExploreProgress&)> progress;
+};
+
+class CheckRun {
+ public:
+  /// Loads a script; `-` is standard input. Null: the reasons are in `input`, which must outlive
+  /// the run.
+  static std::unique_ptr<CheckRun> load(const std::string& path, Input& input);
+
+  const std::vector<semantics::ScriptAssertion>& assertions() const { return assertions_; }
+  const std::vector<semantics::ScriptPrint>& prints() const { return prints_; }
+
+  PrintedValue evaluate(const semantics::ScriptPrint& print, const base::Limits& limits);
+  /// Checks the assertions of these numbers. `consume` is called in the order of the numbers, and
+  /// says whether to go on.
+  void check(std::span<const std::size_t> numbers, const CheckOptions& options,
+             const std::function<bool(CheckedAssertion)>& consume);
+  /// What `Script` says, of all scripts that were used.
+  std::vector<std::string> compressions_taken_as_identity() const;
+
+ private:
+  struct Copy {
+    Input input;
+    std::unique_ptr<semantics::Script> script;
+  };
+
+  explicit CheckRun(Input& input) : input_(input) {}
+  std::unique_ptr<Copy> copy() const;
+  CheckedAssertion check_one(semantics::Script& script, std::size_t number,
+                             const lts::ExploreOptions& exploration, const CheckOptions& options);
+
+  Input& input_;
+  base::FileId root_;
+  std::map<std::string, base::FileText> files_;  // what includes were, by path
+  std::unique_ptr<semantics::Script> script_;
+  std::vector<semantics::ScriptAssertion> assertions_;
+  std::vector<semantics::ScriptPrint> prints_;
+  std::vector<std::string> compressions_;
+};
+
+/// How many checks run side by side unless it is said: one for each processor.
+std::size_t default_jobs();
+
+}  // namespace perentie::cli
