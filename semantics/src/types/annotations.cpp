@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "inference.hpp"
+#include "perentie/base/check.hpp"
 #include "perentie/base/overload.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 
@@ -28,26 +29,19 @@ TypeChecker::Impl::Scheme TypeChecker::Impl::annotated_type(const parser::Annota
   for (const parser::Constraint& c : tree.list(d.constraints)) {
     const std::string_view word = tree.names[c.constraint.name];
     const TypeRef variable = type_variable(c.variable.name, variables, introduced);
-    bool is_known = false;
-    for (const Constraint constraint : all_constraints) {
-      if (name_of(constraint) != word) continue;
-      is_known = true;
-      ConstraintSet constraints;
-      constraints.add(constraint);
-      if (variables.contains(c.variable.name)) {
-        types.constrain(variable, constraints);
-      } else {
-        report(codes::bad_annotation, c.variable.span,
-               fmt::format("`{}` belongs to an annotation further out, where its constraints have "
-                           "to be",
-                           tree.names[c.variable.name]));
-      }
+    if (!variables.contains(c.variable.name)) {
+      report(codes::bad_annotation, c.variable.span,
+             fmt::format("`{}` belongs to an annotation further out, where its constraints have "
+                         "to be",
+                         tree.names[c.variable.name]));
+      continue;
     }
-    if (!is_known) {
-      report(codes::bad_annotation, c.constraint.span, fmt::format("`{}` is no constraint", word))
-          .notes.push_back(
-              {std::nullopt, "the constraints are Eq, Ord, Set, Complete and Yieldable"});
-    }
+    const auto* constraint =
+        std::ranges::find(all_constraints, word, [](Constraint known) { return name_of(known); });
+    PERENTIE_CHECK(constraint != std::end(all_constraints), "the parser knows the constraints");
+    ConstraintSet constraints;
+    constraints.add(*constraint);
+    types.constrain(variable, constraints);
   }
   const TypeRef type = type_of(d.type, variables, introduced);
   const std::vector<TypeRef> used = types.free_variables(type);

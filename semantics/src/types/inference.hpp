@@ -116,7 +116,7 @@ struct TypeChecker::Impl {
   void enter(SyntaxNode node);
   void finish(SyntaxNode node);
   void push_children(SyntaxNode node);
-  void enter_let(ExprId id, const parser::LetExpr& let);
+  void enter_let(const parser::LetExpr& let);
   void enter_prefix(ExprId id, const parser::PrefixExpr& prefix);
   void enter_clause(SyntaxNode node);
   void mark_sequences(ExprId id);
@@ -185,7 +185,7 @@ struct TypeChecker::Impl {
   std::string missing_fields(TypeRef found, TypeRef expected);
   void report_clash(TypeRef expected, TypeRef found, Span span);
   base::Diagnostic& report(const base::DiagnosticCode& code, Span span, std::string message);
-  std::string text(TypeRef type, bool with_constraints = false) const;
+  std::string text(TypeRef type, bool with_constraints = false);
 };
 
 }  // namespace perentie::semantics
