@@ -121,7 +121,10 @@ INSTANTIATE_TEST_SUITE_P(Evaluation, Endless,
                          ::testing::Values("loop(0)", "#ones", "elem(2, ones)",
                                            "#<x | x <- <0..>, x < 0>",
                                            "head(<x | x <- <1..>, x < 0>)", "show(<0..>)",
-                                           "ones == ones", "twice16(twice16(twice16(1)))"));
+                                           "ones == ones", "twice16(twice16(twice16(1)))",
+                                           "card(Set({1..23}))",
+                                           "card(Union({{(x, y, z) | x <- s} | s <- {{1..250}}, "
+                                           "y <- s, z <- s}))"));
 
 TEST(LimitsTest, ListingEventsEndsWhenItsTimeIsUp) {
   TestScript script("channel c : {0..15}.{0..15}.{0..15}.{0..15}.{0..15}.{0..15}");

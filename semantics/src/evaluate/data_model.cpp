@@ -11,11 +11,6 @@
 #include "sets.hpp"
 
 namespace perentie::semantics {
-namespace {
-
-constexpr std::size_t extensions_per_checkpoint = 4096;
-
-}  // namespace
 
 std::span<const ValueId> DataModel::fields(SymbolId symbol) const {
   if (!has_data(symbol)) return {};
@@ -261,7 +256,6 @@ std::vector<DataModel::Extension> DataModel::find_extensions(ValueId partial,
       const ValueId component =
           open.appended.size() == 1 ? open.appended[0] : values_.make_dot(open.appended);
       result.push_back({open.value, component});
-      if (result.size() % extensions_per_checkpoint == 0) checkpoint_();
       continue;
     }
     const std::vector<ValueId> next = next_components(open.value);

@@ -5,7 +5,6 @@
 // `datatype T = A.{0}` is therefore [c, [A, 0], x].
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -23,9 +22,6 @@ class DataModel {
  public:
   DataModel(ValueStore& values, const Resolution& resolution, const Program& program)
       : values_(values), resolution_(resolution), program_(program) {}
-
-  /// What long enumerations call from time to time; it may throw to end them.
-  void set_checkpoint(std::function<void()> checkpoint) { checkpoint_ = std::move(checkpoint); }
 
   /// The sets of a channel's or constructor's fields. Throws NeedFields until they are known.
   std::span<const ValueId> fields(SymbolId symbol) const;
@@ -80,7 +76,6 @@ class DataModel {
   mutable std::unordered_map<std::uint64_t, ValueId> appended_;  // by both operands
   mutable std::unordered_map<std::uint32_t, std::vector<Extension>> extensions_[2];  // by value
   mutable std::unordered_set<std::uint32_t> complete_dots_;                          // by value
-  std::function<void()> checkpoint_ = [] {};
 };
 
 }  // namespace perentie::semantics

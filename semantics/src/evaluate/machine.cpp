@@ -34,7 +34,7 @@ Machine::Machine(const Program& program, const Resolution& resolution, std::uint
   // The scope of all globals is canonical scope 0.
   scopes_.intern(0, {});
   instances_.emplace_back();
-  data_.set_checkpoint([this] { checkpoint(); });
+  values_.set_checkpoint([this] { checkpoint(); });
 }
 
 void Machine::extend_globals() {
@@ -124,7 +124,7 @@ void Machine::check_depth_and_time() {
 
 // For built-ins that work long without running instructions.
 void Machine::checkpoint() const {
-  if (!budget_) return;
+  if (!running_) return;
   if (const auto reached = budget_->check_time()) throw EvaluationLimit{*reached};
   if (const auto reached = budget_->check_memory(memory_bytes())) throw EvaluationLimit{*reached};
 }

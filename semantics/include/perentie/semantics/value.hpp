@@ -6,9 +6,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "perentie/base/check.hpp"
@@ -119,8 +121,14 @@ class ValueStore {
 
   std::size_t memory_bytes() const { return terms_.memory_bytes(); }
 
+  /// To be called now and then while values are made. It may throw.
+  void set_checkpoint(std::function<void()> checkpoint) { checkpoint_ = std::move(checkpoint); }
+
  private:
+  static constexpr std::uint32_t values_per_checkpoint = 1U << 14U;
+
   ValueId intern(ValueKind kind, std::span<const std::uint32_t> words) {
+    if (++made_ % values_per_checkpoint == 0) checkpoint_();
     return {terms_.intern(static_cast<std::uint8_t>(kind), words)};
   }
   ValueId intern(ValueKind kind, std::initializer_list<std::uint32_t> words) {
@@ -129,6 +137,8 @@ class ValueStore {
   ValueId intern(ValueKind kind, std::span<const ValueId> items);
 
   base::TermTable terms_;
+  std::function<void()> checkpoint_ = [] {};
+  std::uint32_t made_ = 0;
   ValueId false_, true_, empty_seq_, empty_set_, empty_map_, int_set_, proc_set_, ignored_;
 };
 
