@@ -15,11 +15,13 @@ namespace {
 
 constexpr const char* description =
     "perentie: machine-readable CSP (CSPM) without FDR.\n"
-    "Evaluates models, builds their labelled transition systems, and monitors running systems and\n"
-    "logs against them.";
+    "Type-checks and evaluates models, checks their assertions, builds their labelled transition\n"
+    "systems, and monitors running systems and logs against them.";
 
 constexpr const char* footer =
     "Examples:\n"
+    "  perentie check corpus/check/philosophers.csp\n"
+    "  perentie repl corpus/rover/rover.csp\n"
     "  perentie monitor corpus/rover/pass.yaml\n"
     "  perentie monitor --model corpus/rover/rover.csp --process ROVER_SYSTEM \\\n"
     "      --trace corpus/rover/swapped.jsonl --mode strict\n"

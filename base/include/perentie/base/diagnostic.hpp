@@ -18,8 +18,8 @@ namespace perentie::base {
 
 enum class Severity : std::uint8_t { error, warning };
 
-/// One kind of diagnostic. Codes are never reused: L lexing, P parsing, N names, E evaluation, M
-/// monitor, I input and output.
+/// One kind of diagnostic. Codes are never reused: L lexing, P parsing, N names, T types, E
+/// evaluation, M monitor, I input and output.
 struct DiagnosticCode {
   std::string_view id;  ///< such as "P003"
   Severity severity;
