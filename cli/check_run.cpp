@@ -193,6 +193,23 @@ std::vector<std::string> CheckRun::compressions_taken_as_identity() const {
   return names;
 }
 
+ExitCode worse(ExitCode a, ExitCode b) {
+  constexpr ExitCode order[] = {ExitCode::ok, ExitCode::inconclusive, ExitCode::refuted,
+                                ExitCode::model_error, ExitCode::io_error};
+  return std::max(a, b, [&](ExitCode x, ExitCode y) {
+    return std::ranges::find(order, x) < std::ranges::find(order, y);
+  });
+}
+
+ExitCode worse(ExitCode code, semantics::CheckResult::Outcome outcome) {
+  using Outcome = semantics::CheckResult::Outcome;
+  const ExitCode own = outcome == Outcome::holds          ? ExitCode::ok
+                       : outcome == Outcome::fails        ? ExitCode::refuted
+                       : outcome == Outcome::inconclusive ? ExitCode::inconclusive
+                                                          : ExitCode::model_error;
+  return worse(code, own);
+}
+
 std::size_t default_jobs() { return std::max(std::thread::hardware_concurrency(), 1U); }
 
 }  // namespace perentie::cli

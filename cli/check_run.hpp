@@ -81,6 +81,10 @@ class CheckRun {
   std::vector<std::string> compressions_;
 };
 
+/// The worst of the outcomes, as an exit code: an error, then a claim that fails, then none known.
+ExitCode worse(ExitCode a, ExitCode b);
+ExitCode worse(ExitCode code, semantics::CheckResult::Outcome outcome);
+
 /// How many checks run side by side unless it is said: one for each processor.
 std::size_t default_jobs();
 

@@ -21,19 +21,6 @@ struct Options {
   BudgetOptions budget;
 };
 
-// The worst of the outcomes, as an exit code: an error, then a claim that fails, then none known.
-ExitCode worse(ExitCode code, Outcome outcome) {
-  constexpr ExitCode order[] = {ExitCode::ok, ExitCode::inconclusive, ExitCode::refuted,
-                                ExitCode::model_error};
-  const ExitCode own = outcome == Outcome::holds          ? ExitCode::ok
-                       : outcome == Outcome::fails        ? ExitCode::refuted
-                       : outcome == Outcome::inconclusive ? ExitCode::inconclusive
-                                                          : ExitCode::model_error;
-  return std::max(code, own, [&](ExitCode a, ExitCode b) {
-    return std::ranges::find(order, a) < std::ranges::find(order, b);
-  });
-}
-
 // The numbers to check, from 1: all, unless some were chosen.
 std::optional<std::vector<std::size_t>> chosen(const Options& options, std::size_t count,
                                                const Console& console) {

@@ -18,6 +18,7 @@ struct Command {
 
 Command add_monitor(CLI::App& program);
 Command add_check(CLI::App& program);
+Command add_refines(CLI::App& program);
 Command add_lts(CLI::App& program);
 Command add_eval(CLI::App& program);
 Command add_typecheck(CLI::App& program);

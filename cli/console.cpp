@@ -54,6 +54,11 @@ void Console::print(const base::Diagnostics& diagnostics, const base::SourceMap&
 
 void Console::result(std::string_view text) const { write(stdout, text); }
 
+void Console::log(std::string_view text) {
+  clear_progress();
+  write(stderr, text);
+}
+
 void Console::error(std::string_view message) const {
   write(stderr, fmt::format("perentie: {} {}\n", styled("1;31", "error:"), message));
 }

@@ -24,6 +24,8 @@ class Console {
   void forget_printed() { printed_ = 0; }
   /// A result, to standard output. That it could not be written is noticed when the program ends.
   void result(std::string_view text) const;
+  /// Text of a certain layout to standard error, as it is.
+  void log(std::string_view text);
   /// `perentie: error: message`.
   void error(std::string_view message) const;
   /// `perentie: message`; silent with --quiet.

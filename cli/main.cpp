@@ -1,7 +1,10 @@
 // The `perentie` program: reads the command line and runs one subcommand.
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,6 +34,15 @@ constexpr const char* footer =
     "Exit codes: 0 it holds, conforms or is done; 1 it does not; 2 wrong usage or configuration;\n"
     "3 the model has errors; 4 a budget ran out (no verdict); 5 input or output failed; 130\n"
     "interrupted.";
+
+// The words of the command line, last first. Called `refines`, the program is that subcommand.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(std::reverse_iterator(argv + argc),
+                                 std::reverse_iterator(argv + std::min(argc, 1)));
+  const std::string_view name = argc > 0 ? argv[0] : "";
+  if (name.substr(name.find_last_of('/') + 1) == "refines") words.emplace_back("refines");
+  return words;
+}
 
 // The word that stands where a subcommand should; empty if there is none.
 std::string first_word(int argc, char** argv) {
@@ -74,13 +86,13 @@ ExitCode run(int argc, char** argv) {
       });
 
   std::vector<Command> commands;
-  for (const auto add :
-       {add_monitor, add_check, add_lts, add_eval, add_typecheck, add_repl, add_dump}) {
+  for (const auto add : {add_monitor, add_check, add_refines, add_lts, add_eval, add_typecheck,
+                         add_repl, add_dump}) {
     commands.push_back(add(program));
   }
   Console console;
   try {
-    program.parse(argc, argv);
+    program.parse(words_of(argc, argv));
   } catch (const CLI::ParseError& error) {
     const bool is_success = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     program.exit(error);  // prints the help, the version or the complaint
