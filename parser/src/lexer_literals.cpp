@@ -2,7 +2,6 @@
 //
 // In characters and strings `\n`, `\r` and `\t` are control characters and `\x` is x for every
 // other x. A string may hold any byte but a newline.
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -30,18 +29,17 @@ bool is_ascii(char c) { return static_cast<signed char>(c) >= 0; }
 }  // namespace
 
 void Lexer::scan_number() {
-  constexpr std::int64_t max = std::numeric_limits<std::int64_t>::max();
   const std::size_t begin = at_;
   std::int64_t value = 0;
   bool too_large = false;
   for (; peek() >= '0' && peek() <= '9'; ++at_) {
     const std::int64_t digit = peek() - '0';
-    too_large = too_large || value > (max - digit) / 10;
+    too_large = too_large || value > (largest_integer - digit) / 10;
     if (!too_large) value = value * 10 + digit;
   }
   if (too_large) {
     report(codes::integer_too_large, begin, at_,
-           fmt::format("this number is too large: the largest is {}", max));
+           fmt::format("this number is too large: the largest is {}", largest_integer));
   }
   out_->integers.push_back(value);
   emit(TokenKind::integer, begin, at_, static_cast<std::uint32_t>(out_->integers.size() - 1));

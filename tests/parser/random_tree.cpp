@@ -61,7 +61,7 @@ class Maker {
     return {tree_.name_lists.add(parts)};
   }
   std::int64_t number() {
-    static constexpr auto numbers = std::to_array<std::int64_t>({0, 1, 2, 42, 9223372036854775807});
+    static constexpr auto numbers = std::to_array<std::int64_t>({0, 1, 2, 42, 4611686018427387903});
     return numbers[choose(numbers.size())];
   }
   NameId text() {

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "perentie/parser/token.hpp"
 #include "perentie/semantics/value.hpp"
 
 namespace perentie::semantics {
@@ -62,7 +63,7 @@ class Word {
 };
 
 /// Integers are those of 63 bits: the word's range (CSPM reference 1.4.1 leaves the range open).
-inline constexpr std::int64_t max_integer = (std::int64_t{1} << 62) - 1;
+inline constexpr std::int64_t max_integer = parser::largest_integer;
 inline constexpr std::int64_t min_integer = -(std::int64_t{1} << 62);
 
 struct Object {

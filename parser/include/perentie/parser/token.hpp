@@ -59,6 +59,9 @@ struct Token {
   NameId name() const { return NameId{value}; }
 };
 
+/// The largest integer of CSPM values: they have 63 bits (docs/decisions/0006-integers.md).
+inline constexpr std::int64_t largest_integer = (std::int64_t{1} << 62) - 1;
+
 /// The tokens of a text, or of a script with its includes; the last one is `end_of_file`.
 struct TokenStream {
   std::vector<Token> tokens;
