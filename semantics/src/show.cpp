@@ -146,6 +146,18 @@ class Printer {
       case ValueKind::seq_set:
         then({"Seq(", inner(value), ")"});
         break;
+      case ValueKind::tuple_set:
+        then_list("(", values_.items(value), ")");
+        break;
+      case ValueKind::dot_set:
+        then_group(Mark::open_fill, "", values_.items(value), {".", Mark::cut}, "");
+        break;
+      case ValueKind::power_set:
+        then({"Set(", inner(value), ")"});
+        break;
+      case ValueKind::map_set:
+        then_list("Map(", values_.items(value), ")");
+        break;
       case ValueKind::data_set:
         text_ += resolution_.symbols[values_.as_symbol(value)].qualified;
         break;

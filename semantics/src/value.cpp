@@ -122,6 +122,10 @@ ValueId ValueStore::make_seq_set(ValueId elements) {
   return intern(ValueKind::seq_set, {elements.bits});
 }
 
+ValueId ValueStore::make_set_over(ValueKind kind, std::span<const ValueId> sets) {
+  return intern(kind, sets);
+}
+
 ValueId ValueStore::make_data_set(SymbolId datatype) {
   return intern(ValueKind::data_set, {datatype.value});
 }

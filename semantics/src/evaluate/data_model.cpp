@@ -164,15 +164,16 @@ std::vector<ValueId> DataModel::next_components(ValueId partial) const {
     if (!is_application(path[i])) continue;
     const auto items = values_.items(path[i]);
     const ValueId set = fields(values_.as_symbol(items[0]))[items.size() - 2];
-    if (!is_finite_set(values_, set)) continue;
+    if (!is_listed(values_, set)) continue;
     return components_after(set, std::span(path).subspan(i + 1));
   }
   const ValueId set = next_set(path.back());
-  if (!is_finite_set(values_, set)) {
-    fail(codes::infinite_set,
-         fmt::format(
-             "the next field of `{}` ranges over the infinite set {}, which cannot be listed",
-             brief(values_, resolution_, partial), brief(values_, resolution_, set)));
+  if (!is_listed(values_, set)) {
+    const bool finite = is_finite(values_, set);
+    fail(finite ? codes::too_large : codes::infinite_set,
+         fmt::format("the next field of `{}` ranges over the {} set {}, which cannot be listed",
+                     brief(values_, resolution_, partial), finite ? "large" : "infinite",
+                     brief(values_, resolution_, set)));
   }
   const auto items = values_.items(set);
   return {items.begin(), items.end()};
@@ -225,7 +226,7 @@ void DataModel::check_extension_count(ValueId partial) const {
   const std::size_t given = is_atom ? 0 : values_.items(partial).size() - 1;
   std::size_t count = 1;
   for (const ValueId set : fields(symbol).subspan(given)) {
-    if (!is_finite_set(values_, set)) return;  // refused where it is reached
+    if (!is_listed(values_, set)) return;  // refused where it is reached
     const std::size_t size = values_.items(set).size();
     if (size == 0) return;
     if (size > max_set_elements / count) refuse();
@@ -277,8 +278,38 @@ std::vector<ValueId> DataModel::productions(ValueId partial) const {
 
 // --- Declared sets ------------------------------------------------------------------------------
 
+ValueId DataModel::dot_product(std::span<const ValueId> sets) const {
+  if (!can_list_product(values_, sets)) {
+    // Plain dotted values: one field for each component of each factor.
+    std::vector<ValueId> columns;
+    for (const ValueId set : sets) {
+      const std::vector<ValueId> parts = decompose(set);
+      columns.insert(columns.end(), parts.begin(), parts.end());
+      if (is_listed(values_, set) && !is_complete(values_.items(set)[0])) {
+        fail_unlisted(values_, values_.make_set_over(ValueKind::tuple_set, sets),
+                      "complete constructors with the fields of");
+      }
+    }
+    return values_.make_set_over(ValueKind::dot_set, columns);
+  }
+  std::vector<ValueId> products;
+  const ValueId tuples = tuple_product(values_, sets);
+  for (std::size_t n = 0; n < values_.items(tuples).size(); ++n) {
+    const ValueId tuple = values_.items(tuples)[n];
+    std::size_t i = values_.items(tuple).size() - 1;
+    ValueId value = values_.items(tuple)[i];
+    while (i-- > 0) value = append(values_.items(tuple)[i], value);
+    products.push_back(value);
+  }
+  return values_.make_set(std::move(products));
+}
+
 std::vector<ValueId> DataModel::decompose(ValueId set) const {
-  if (!is_finite_set(values_, set) || set == values_.empty_set()) return {set};
+  if (values_.kind(set) == ValueKind::dot_set) {
+    const auto items = values_.items(set);
+    return {items.begin(), items.end()};
+  }
+  if (!is_listed(values_, set) || set == values_.empty_set()) return {set};
   std::vector<std::vector<ValueId>> rows;
   for (const ValueId element : values_.items(set)) rows.push_back(components(element));
   const std::size_t width = rows[0].size();

@@ -49,6 +49,8 @@ class DataModel {
   /// All complete values that begin with `partial` (3.6.5).
   std::vector<ValueId> productions(ValueId partial) const;
 
+  /// All dotted values of one component from each set (2.3.2).
+  ValueId dot_product(std::span<const ValueId> sets) const;
   /// A declared set as one set per field: a set of plain dotted values must be a Cartesian product
   /// (2.3.4), any other set is one field.
   std::vector<ValueId> decompose(ValueId set) const;

@@ -394,19 +394,7 @@ std::vector<ValueId> Machine::set_operands(std::uint32_t count) {
 }
 
 void Machine::dot_product(std::uint32_t sets) {
-  std::vector<ValueId> products;
-  for (const ValueId tuple : values_copy(tuple_product(values_, set_operands(sets)))) {
-    const std::vector<ValueId> items = values_copy(tuple);
-    ValueId value = items.back();
-    for (std::size_t i = items.size() - 1; i > 0; --i) value = data_.append(items[i - 1], value);
-    products.push_back(value);
-  }
-  replace(sets, values_.make_set(std::move(products)));
-}
-
-std::vector<ValueId> Machine::values_copy(ValueId value) const {
-  const auto items = values_.items(value);
-  return {items.begin(), items.end()};
+  replace(sets, data_.dot_product(set_operands(sets)));
 }
 
 // All values of a datatype; if a field ranges over an infinite set, the set is known by name only.
@@ -418,7 +406,7 @@ void Machine::datatype_set(SymbolId datatype) {
       return push(values_.make_data_set(datatype));
     }
     for (const ValueId set : data_.fields(constructor)) {
-      if (!is_finite_set(values_, set)) return push(values_.make_data_set(datatype));
+      if (!is_listed(values_, set)) return push(values_.make_data_set(datatype));
     }
   }
   for (const SymbolId constructor : resolution_.members.at(decl.value)) {
@@ -440,16 +428,16 @@ void Machine::iter_begin(bool over_set) {
   const ValueId collection = value_at(0);
   if (over_set) {
     require_set(collection);
-    if (!is_finite_set(values_, collection) && !lists_nothing(values_, collection)) {
-      fail(codes::infinite_set, fmt::format("cannot go through the infinite set {}",
-                                            brief(values_, resolution_, collection)));
+    if (!is_listed(values_, collection) && !lists_nothing(values_, collection)) {
+      fail_unlisted(values_, collection,
+                    fmt::format("go through {},", brief(values_, resolution_, collection)));
     }
   } else if (!values_.is_seq(collection)) {
     fail(codes::wrong_type, fmt::format("a sequence is needed, but this is `{}`",
                                         brief(values_, resolution_, collection)));
   }
   const ValueId listed =
-      over_set && !is_finite_set(values_, collection) ? values_.empty_set() : collection;
+      over_set && !is_listed(values_, collection) ? values_.empty_set() : collection;
   iterators_.push_back({over_set ? Iterator::Kind::set : Iterator::Kind::sequence, listed});
   pop();
 }
@@ -554,7 +542,7 @@ void Machine::match(Instruction in) {
       return;
     case Op::match_single_set: {
       const ValueId set = require_set(value_at(0));
-      if (is_finite_set(values_, set) && values_.items(set).size() == 1) {
+      if (is_listed(values_, set) && values_.items(set).size() == 1) {
         replace(1, values_.items(set)[0]);
       } else {
         pop();

@@ -190,7 +190,6 @@ class Machine final : public FunctionNames, public CallUnfolder {
   void make_range_set(bool bounded);
   ValueId require_set(ValueId value) const;
   std::vector<ValueId> set_operands(std::uint32_t count);
-  std::vector<ValueId> values_copy(ValueId value) const;
   void dot_product(std::uint32_t sets);
   void datatype_set(SymbolId datatype);
   Accumulator take_accumulator();

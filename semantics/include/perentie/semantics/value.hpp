@@ -39,18 +39,22 @@ enum class ValueKind : std::uint8_t {
   dot,   ///< components; a completed constructor application is one component (3.6.1)
   tuple,
   empty_seq,
-  cons,      ///< {head, tail, length}
-  set,       ///< elements in ascending order
-  int_set,   ///< all integers
-  proc_set,  ///< all processes
-  from_set,  ///< {n}: all integers from n
-  seq_set,   ///< {s}: all finite sequences over a set
-  data_set,  ///< {symbol}: all values of a datatype with infinitely many
-  map,       ///< {} or {key, value, map of smaller keys, map of greater keys}
-  process,   ///< {process}
-  function,  ///< {function, group, scope}: see evaluate's code.hpp
-  builtin,   ///< {builtin}
-  ignored,   ///< stands for an argument that a function ignores (3.8.2)
+  cons,       ///< {head, tail, length}
+  set,        ///< elements in ascending order
+  int_set,    ///< all integers
+  proc_set,   ///< all processes
+  from_set,   ///< {n}: all integers from n
+  seq_set,    ///< {s}: all finite sequences over a set
+  tuple_set,  ///< sets: all tuples of their elements, if these cannot be listed
+  dot_set,    ///< sets: all dotted values of their elements, if these cannot be listed
+  power_set,  ///< {s}: all subsets, if they cannot be listed
+  map_set,    ///< {s, t}: all partial maps from s to t, if they cannot be listed
+  data_set,   ///< {symbol}: all values of a datatype with infinitely many
+  map,        ///< {} or {key, value, map of smaller keys, map of greater keys}
+  process,    ///< {process}
+  function,   ///< {function, group, scope}: see evaluate's code.hpp
+  builtin,    ///< {builtin}
+  ignored,    ///< stands for an argument that a function ignores (3.8.2)
 };
 
 class ValueStore {
@@ -76,6 +80,8 @@ class ValueStore {
   ValueId proc_set() const { return proc_set_; }
   ValueId make_from_set(std::int64_t first);
   ValueId make_seq_set(ValueId elements);
+  /// A `tuple_set`, `dot_set`, `power_set` or `map_set`.
+  ValueId make_set_over(ValueKind kind, std::span<const ValueId> sets);
   ValueId make_data_set(SymbolId datatype);
   ValueId empty_map() const { return empty_map_; }
   /// For `make_map` and the other operations of src/maps.hpp.
