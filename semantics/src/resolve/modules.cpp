@@ -127,9 +127,25 @@ SymbolId Resolver::Impl::module_to_instantiate(const Group& group, const parser:
 
 void Resolver::Impl::open_module(SymbolId module) {
   open_scope();
+  open_modules.push_back(module);
   const ModuleMembers members = result.modules.at(module.value);
   bind_all(members.private_);
   bind_all(members.exported);
+}
+
+void Resolver::Impl::close_module() {
+  open_modules.pop_back();
+  close_scope();
+}
+
+// Such an instance would be defined by itself (2.9.8).
+bool Resolver::Impl::is_instance_of_open_module(SymbolId module) const {
+  return std::any_of(open_modules.begin(), open_modules.end(), [&](SymbolId open) {
+    const auto instances = instances_of.find(result.symbols[open].decl.value);
+    if (instances == instances_of.end()) return false;
+    const auto& decls = instances->second;
+    return std::find(decls.begin(), decls.end(), result.symbols[module].decl) != decls.end();
+  });
 }
 
 // The parameters' patterns bind nothing here, but may name constructors to match.
@@ -137,7 +153,7 @@ void Resolver::Impl::visit_module(SymbolId module) {
   using K = Task::Kind;
   const auto& d =
       std::get<parser::ModuleDecl>(tree.decls[result.modules.at(module.value).decl].node);
-  tasks.push_back({K::close_scope});
+  tasks.push_back({K::close_module});
   then_all(K::bodies, tree.list(d.exported_declarations));
   then_all(K::bodies, tree.list(d.private_declarations));
   then_all(K::pattern, tree.list(d.parameters));

@@ -47,6 +47,9 @@ void Resolver::Impl::run() {
       case Task::Kind::open_module:
         open_module(SymbolId{task.id});
         break;
+      case Task::Kind::close_module:
+        close_module();
+        break;
       case Task::Kind::open_timed:
         open_timed();
         break;

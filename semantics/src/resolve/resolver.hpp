@@ -36,6 +36,7 @@ struct Task {
     bodies,        // resolve the bodies of one declaration whose names are bound
     clause,
     open_module,
+    close_module,
     open_timed,  // bind what only timed sections know
     begin_copy,  // resolve a copy of a module: its errors are those of the module
     end_copy,
@@ -70,6 +71,7 @@ struct Resolver::Impl {
   // By DeclId of a module: its instances. Their bodies are resolved where the module is defined.
   std::unordered_map<std::uint32_t, std::vector<DeclId>> instances_of;
   std::vector<DeclId> modules_in_declaration;  // the outermost first
+  std::vector<SymbolId> open_modules;          // whose bodies are being resolved, likewise
 
   std::vector<Task> tasks;
 
@@ -187,6 +189,8 @@ struct Resolver::Impl {
   SymbolId module_to_instantiate(const Group& group, const parser::InstanceDecl& d,
                                  SymbolId instance);
   void open_module(SymbolId module);
+  void close_module();
+  bool is_instance_of_open_module(SymbolId module) const;
 
   // The parameters' patterns bind nothing here, but may name constructors to match.
   void visit_module(SymbolId module);

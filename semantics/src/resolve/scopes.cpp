@@ -117,6 +117,14 @@ SymbolId Resolver::Impl::lookup(parser::QualifiedName qualified, Span span) {
     report_not_in_scope(parts[0], span);
     return {};
   }
+  if (parts.size() > 1 && is_instance_of_open_module(first)) {
+    auto& report = diagnostics->report(
+        codes::bad_instance, span,
+        fmt::format("a module cannot use what belongs to an instance of itself, `{}`",
+                    text(parts[0])));
+    report.notes.push_back({result.symbols[first].span, "the instance is made here"});
+    return {};
+  }
   SymbolId current = first;
   for (std::size_t i = 1; i < parts.size(); ++i) {
     if (result.symbols[current].kind == SymbolKind::unsupported) return current;
