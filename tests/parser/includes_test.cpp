@@ -32,7 +32,7 @@ struct Files {
   }
 };
 
-TEST(IncludesTest, AreRelativeToTheIncludingFileThenToTheScript) {
+TEST(IncludesTest, AreRelativeToTheIncludingFileThenToTheScript) {  // CSPM reference 2.8
   Files files{{{"models/main.csp", "include \"sub/a.csp\"\nx = 1\n"},
                {"models/sub/a.csp", "include \"b.csp\"\ninclude \"c.csp\"\n"},
                {"models/sub/b.csp", "b = 1\n"},
@@ -90,7 +90,7 @@ TEST(IncludesTest, NestingIsLimited) {
   EXPECT_LT(count, 1000);
 }
 
-TEST(IncludesTest, NothingGoesOnAcrossTheBoundary) {
+TEST(IncludesTest, NothingGoesOnAcrossTheBoundary) {  // CSPM reference 1.1.10
   Files files{{{"main.csp", "x = 1 +\ninclude \"a.csp\"\n[] STOP\n"}, {"a.csp", "2"}}};
   const Parsed parsed = files.parse("main.csp");
   EXPECT_EQ(parsed.codes(), "P001");

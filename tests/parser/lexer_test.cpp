@@ -37,6 +37,17 @@ TEST(LexerTest, SpansCoverTheTokens) {
   EXPECT_EQ(lexed.stream.tokens[2].span, (base::Span{5, 8}));
 }
 
+TEST(LexerTest, WhiteSpace) {  // CSPM reference 1.1.1
+  EXPECT_EQ(kinds("a \t\f\v\r b"), "identifier identifier");
+  EXPECT_EQ(kinds("a\r\nb\r\n"), "identifier newline identifier");
+  EXPECT_EQ(kinds("a +\r\n\f\v1"), "identifier add integer");
+}
+
+TEST(LexerTest, ATabIsOneColumn) {  // CSPM reference 1.1.2
+  EXPECT_EQ(lex_text("\tx\n\t\ty").dump(),
+            "1:2 identifier x\n1:3 newline\n2:3 identifier y\n2:4 end_of_file\n");
+}
+
 // Every symbol, keyword and literal against the rule of CSPM reference 1.1.4 and 1.1.5, which is
 // written down here once more: these keep a newline before them.
 TEST(LexerTest, NewlinesBeforeTokens) {
@@ -106,7 +117,7 @@ TEST(LexerTest, Maps) {
   EXPECT_EQ(kinds("(|||"), "left_paren interleave");
 }
 
-TEST(LexerTest, LongestMatch) {
+TEST(LexerTest, LongestMatch) {  // CSPM reference 1.6.1, 1.6.2
   EXPECT_EQ(kinds("x<-1"), "identifier drawn_from integer");
   EXPECT_EQ(kinds("a<->b"), "identifier tie identifier");
   EXPECT_EQ(kinds("1->2"), "integer prefix integer");
@@ -120,7 +131,7 @@ TEST(LexerTest, LongestMatch) {
   EXPECT_EQ(kinds("||||"), "interleave bar");
 }
 
-TEST(LexerTest, ScopeAndAnnotation) {
+TEST(LexerTest, ScopeAndAnnotation) {  // CSPM reference 1.6.4
   EXPECT_EQ(kinds("a::b"), "identifier scope identifier");
   EXPECT_EQ(kinds("a ::b"), "identifier annotate identifier");
   EXPECT_EQ(kinds("a:: b"), "identifier annotate identifier");
@@ -133,7 +144,7 @@ TEST(LexerTest, KeywordsEndWhereWordsEnd) {
   EXPECT_EQ(kinds("type True STOP"), "identifier identifier identifier");
 }
 
-TEST(LexerTest, BlockCommentsNestAndDashesPairUp) {
+TEST(LexerTest, BlockCommentsNestAndDashesPairUp) {  // CSPM reference 1.2.2, 1.2.3
   EXPECT_EQ(kinds("{- {- -} -} x"), "identifier");
   EXPECT_EQ(kinds("{- --} still -} x"), "identifier");
   EXPECT_EQ(kinds("{-{{- -} x"), "identifier");
@@ -162,13 +173,13 @@ TEST(LexerTest, StringsHoldAnyByte) {
 }
 
 TEST(LexerTest, Integers) {
-  const Lexed lexed = lex_text("0 007 9223372036854775807 9223372036854775808");
+  const Lexed lexed = lex_text("0 007 4611686018427387903 4611686018427387904");
   EXPECT_EQ(lexed.stream.integers,
-            (std::vector<std::int64_t>{0, 7, 9223372036854775807, 922337203685477580}));
+            (std::vector<std::int64_t>{0, 7, 4611686018427387903, 461168601842738790}));
   EXPECT_EQ(lexed.diagnostics.error_count(), 1U);
 }
 
-TEST(LexerTest, PrintLines) {
+TEST(LexerTest, PrintLines) {  // CSPM reference 1.3.5
   EXPECT_EQ(lex_text("print 1 + 2 \r\nprint\tx\n").dump(),
             "1:7 print \"1 + 2\"\n1:12 newline\n2:7 print \"x\"\n3:1 end_of_file\n");
   EXPECT_EQ(kinds("print(x)"), "identifier left_paren identifier right_paren");
@@ -177,7 +188,7 @@ TEST(LexerTest, PrintLines) {
   EXPECT_EQ(kinds("print \t\nx"), "identifier newline identifier");
 }
 
-TEST(LexerTest, IncludeLines) {
+TEST(LexerTest, IncludeLines) {  // CSPM reference 1.3.5, 2.8
   EXPECT_EQ(lex_text("include \"a b.csp\" -- x\n").dump(),
             "1:9 include \"a b.csp\"\n2:1 end_of_file\n");
   for (const std::string text :
@@ -186,7 +197,7 @@ TEST(LexerTest, IncludeLines) {
   }
 }
 
-TEST(LexerTest, Properties) {
+TEST(LexerTest, Properties) {  // CSPM reference 1.6.3
   EXPECT_EQ(kinds("P :[deadlock free [FD]]"),
             "identifier property_open property property_model property_close");
   EXPECT_EQ(kinds("P :[ livelock-free\n[ F ] ]:"),
@@ -198,7 +209,7 @@ TEST(LexerTest, Properties) {
   EXPECT_EQ(codes("P :[deterministic\nQ = P"), "L010");
 }
 
-TEST(LexerTest, Refinements) {
+TEST(LexerTest, Refinements) {  // CSPM reference 1.6.5
   EXPECT_EQ(lex_text("[T= [F= [FD= [V= [VD= [R= [RD=").dump(),
             "1:1 refines T\n1:5 refines F\n1:9 refines FD\n1:14 refines V\n1:18 refines VD\n"
             "1:23 refines R\n1:27 refines RD\n1:31 end_of_file\n");
@@ -213,7 +224,7 @@ TEST(LexerTest, UnreadableTextBecomesErrorTokens) {
   EXPECT_EQ(kinds("\xEF\xBB\xBFx"), "identifier");
 }
 
-TEST(LexerTest, RichTextIsNotRead) {
+TEST(LexerTest, RichTextIsNotRead) {  // CSPM reference 1.1.11
   const Lexed lexed = lex_text("{\\rtf1\\ansi x = 1}");
   EXPECT_EQ(lexed.stream.tokens.size(), 1U);
   EXPECT_EQ(lexed.diagnostics.error_count(), 1U);

@@ -286,7 +286,7 @@ TEST(SpecialRulesTest, OpenFormsReachFarRight) {  // 1.7.9
   expect_same("if a then b else if c then d else e", "if a then b else (if c then d else e)");
 }
 
-TEST(SpecialRulesTest, ReplicatedAlphabetisedParallelEndsEarlier) {  // 11.1
+TEST(SpecialRulesTest, ReplicatedAlphabetisedParallelEndsEarlier) {  // CSPM reference 11.1
   expect_same("|| i:S @ [A] P ||| Q", "(|| i:S @ [A] P) ||| Q");
   expect_same("|| i:S @ [A] P \\ B", "(|| i:S @ [A] P) \\ B");
   expect_same("|| i:S @ [A] P |\\ B", "(|| i:S @ [A] P) |\\ B");

@@ -35,6 +35,13 @@ TEST(ParseExpressionTest, AddsToATree) {
   EXPECT_EQ(parsed.dump(), before);
 }
 
+// A name that begins with `not` is a name (11.3).
+TEST(ParseAssertionTest, NegationIsAWord) {  // CSPM reference 1.6.6, 11.3
+  EXPECT_EQ(parse_text("assert\n\n{- -} not -- what\n P [T= Q").printed(), "assert not P [T= Q\n");
+  EXPECT_EQ(parse_text("assert notx [T= not_").printed(), "assert notx [T= not_\n");
+  EXPECT_EQ(parse_text("assert not(P) [T= Q").printed(), "assert not P [T= Q\n");
+}
+
 TEST(ParseAssertionTest, WithAndWithoutTheWord) {
   for (const std::string text : {"assert not P [T= Q", "not P [T= Q", "\nassert\nnot P [T= Q\n"}) {
     Parsed parsed;

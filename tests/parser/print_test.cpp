@@ -87,7 +87,7 @@ TEST(PrintTest, Parts) {
   EXPECT_EQ(print(parsed.tree, clause.body), "x");
   const auto& g = std::get<AnnotationDecl>(parsed.tree.decls[decls[1]].node);
   EXPECT_EQ(print(parsed.tree, g.type), "(Int) -> {Bool}");
-  // The form that tools show assertions in (2.6.10).
+  // The form that tools show assertions in (CSPM reference 2.6.10).
   const auto& a = std::get<AssertDecl>(parsed.tree.decls[decls[2]].node);
   EXPECT_EQ(print(parsed.tree, a.assertion), "not let x = 0 within M::P(x) :[deadlock free]");
 }

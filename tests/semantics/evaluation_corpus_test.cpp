@@ -1,4 +1,5 @@
-// The corpus of values: every constant `test..` of corpus/evaluate/pass is true.
+// The corpus of values: every constant `test..` of corpus/evaluate/pass is true, and every process
+// `PROC..` is printed with its definitions as the golden file of its script says.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 
 #include "perentie/semantics/builtins.hpp"
 #include "perentie/test/corpus.hpp"
+#include "perentie/test/golden.hpp"
 #include "perentie/test/paths.hpp"
 #include "script_support.hpp"
 
@@ -36,6 +38,22 @@ TEST_P(PassingScript, HoldsItsTests) {
   }
   EXPECT_GT(tests, 0U);
   EXPECT_EQ(script->messages(), "");
+}
+
+TEST_P(PassingScript, PrintsItsProcessesAsItsGoldenFileSays) {
+  const auto script = TestScript::of_file(GetParam());
+  ASSERT_TRUE(script->loaded()) << script->messages();
+  const std::string text = text_of(GetParam());
+  const std::regex definition(R"(^(PROC\w*) =)", std::regex::multiline);
+  std::string printed;
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), definition);
+       it != std::sregex_iterator(); ++it) {
+    const auto definitions = script->definitions((*it)[1]);
+    ASSERT_TRUE(definitions) << script->messages();
+    printed += with_own_numbers(*definitions) + "\n\n\n";
+  }
+  if (printed.empty()) return;
+  EXPECT_TRUE(test::matches_golden(GetParam().generic_string() + ".processes", printed));
 }
 
 INSTANTIATE_TEST_SUITE_P(Corpus, PassingScript, ::testing::ValuesIn(test::scripts_in(folder)),

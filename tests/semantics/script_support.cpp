@@ -1,6 +1,8 @@
 #include "script_support.hpp"
 
 #include <algorithm>
+#include <map>
+#include <regex>
 #include <utility>
 
 #include "perentie/test/lts_text.hpp"
@@ -20,6 +22,12 @@ std::unique_ptr<TestScript> TestScript::of_file(const std::filesystem::path& pat
 
 std::optional<std::string> TestScript::evaluate(const std::string& expression) {
   return script_->evaluate(expression, diagnostics_, expression);
+}
+
+std::optional<std::string> TestScript::definitions(const std::string& process) {
+  const std::optional<ProcId> term = script_->process(process, diagnostics_, process);
+  if (!term) return std::nullopt;
+  return script_->definitions(*term, diagnostics_);
 }
 
 std::optional<lts::Lts> TestScript::explore(const std::string& process,
@@ -143,6 +151,21 @@ bool isomorphic(const lts::Lts& left, const lts::Lts& right) { return Matcher(le
   if (isomorphic(*a, *b)) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << left << "\n  is " << test::to_text(*a) << "\n"
                                        << right << "\n  is " << test::to_text(*b);
+}
+
+std::string with_own_numbers(const std::string& text) {
+  const std::regex internal(R"(\bi[0-9]+\b)");
+  std::map<std::string, std::size_t> numbers;
+  std::string result;
+  auto at = text.begin();
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), internal);
+       it != std::sregex_iterator(); ++it) {
+    result.append(at, (*it)[0].first);
+    const auto number = numbers.emplace(it->str(), numbers.size()).first->second;
+    result.append("i").append(std::to_string(number));
+    at = (*it)[0].second;
+  }
+  return result.append(at, text.end());
 }
 
 std::string codes_of_process(const std::string& process, const std::string& definitions) {

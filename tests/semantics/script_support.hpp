@@ -27,6 +27,9 @@ class TestScript {
 
   /// The value of an expression as text; nothing, and a diagnostic, if it has none.
   std::optional<std::string> evaluate(const std::string& expression);
+  /// A process with the definitions that it leads to, as `perentie eval -p` prints them; nothing,
+  /// and a diagnostic, if it has no value.
+  std::optional<std::string> definitions(const std::string& process);
   /// Everything that a process can reach; nothing, and a diagnostic or a limit, if it cannot be
   /// explored.
   std::optional<lts::Lts> explore(const std::string& process, const base::Limits& limits = {});
@@ -54,6 +57,9 @@ bool isomorphic(const lts::Lts& left, const lts::Lts& right);
 /// Whether two processes have the same LTS, up to the numbers of states.
 ::testing::AssertionResult same_lts(const std::string& left, const std::string& right,
                                     const std::string& definitions = "");
+/// The text with internal names such as `P::i1564` numbered from 0 in order: their numbers depend
+/// on all that a script defines.
+std::string with_own_numbers(const std::string& text);
 /// The codes with which a process of such a script is refused; empty if it is not.
 std::string codes_of_process(const std::string& process, const std::string& definitions = "");
 /// The value of an expression in a script of these definitions alone, or its messages.

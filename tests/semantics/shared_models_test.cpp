@@ -77,22 +77,6 @@ const std::map<std::string, std::string>& known_exceptions() {
   return exceptions;
 }
 
-// Internal names are numbered anew: `i1564` is an artefact of the program that recorded it.
-std::string with_own_numbers(const std::string& text) {
-  const std::regex internal(R"(\bi[0-9]+\b)");
-  std::map<std::string, std::size_t> numbers;
-  std::string result;
-  auto at = text.begin();
-  for (auto it = std::sregex_iterator(text.begin(), text.end(), internal);
-       it != std::sregex_iterator(); ++it) {
-    result.append(at, (*it)[0].first);
-    const auto number = numbers.emplace(it->str(), numbers.size()).first->second;
-    result.append("i").append(std::to_string(number));
-    at = (*it)[0].second;
-  }
-  return result.append(at, text.end());
-}
-
 // A process must print as one of its recorded texts, of which some were cut off at the end.
 std::string problem_of_process(TestScript& script, const fs::path& path, const std::string& name) {
   base::Diagnostics diagnostics;

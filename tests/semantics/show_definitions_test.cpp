@@ -23,7 +23,7 @@ TEST(ShowDefinitionsTest, ComeBeforeTheirUses) {
   EXPECT_EQ(definitions_of("P", "P = SKIP"), "SKIP = ✓ -> STOP\n\nP = SKIP\n\nP");
 }
 
-// 3.10.11: a line has at most 67 characters besides its indentation.
+// CSPM reference 3.10.11: a line has at most 67 characters besides its indentation.
 TEST(ShowDefinitionsTest, LongDefinitionsAreBrokenAfterTheirName) {
   const std::string name(20, 'P');
   EXPECT_EQ(definitions_of(name, name + " = a -> a -> a -> a -> a -> a -> a -> a -> STOP"),
@@ -54,7 +54,7 @@ TEST(ShowDefinitionsTest, SetsFillTheirLines) {
             "\nP");
 }
 
-// 3.10.6: a buffer is known by its name, if its arguments make sense.
+// CSPM reference 3.10.6: a buffer is known by its name, if its arguments make sense.
 TEST(ShowDefinitionsTest, BuffersAreDefinedByThemselves) {
   EXPECT_EQ(definitions_of("BUFFER(1, {(a, b)})", ""),
             "BUFFER(1, {(a, b)}) = BUFFER(1, {(a, b)})\n\nBUFFER(1, {(a, b)})");

@@ -9,7 +9,8 @@
 namespace perentie::semantics {
 namespace {
 
-// --- Constants (3.10.7, 3.10.8) -----------------------------------------------------------------
+// --- Constants (CSPM reference 3.10.7, 3.10.8)
+// -----------------------------------------------------------------
 
 TEST(StepTest, Constants) {
   EXPECT_TRUE(has_lts("STOP", "0"));

@@ -1,4 +1,4 @@
-// Timed sections against hand-written untimed twins (CSPM reference 2.10).
+// Timed sections against hand-written untimed twins (CSPM reference 2.10.4, 2.10.11).
 #include <gtest/gtest.h>
 
 #include "script_support.hpp"
@@ -103,7 +103,7 @@ TEST(TimedTest, OtherOperatorsStayAsTheyAre) {
       twins("T = (a -> STOP) [|{a}|> b -> STOP", std::string("U = A(a) [|{a}|> A(b)") + waiting));
 }
 
-TEST(TimedTest, EmptyReplicatedOperators) {
+TEST(TimedTest, EmptyReplicatedOperators) {  // CSPM reference 2.10.5
   EXPECT_TRUE(twins("T = [] x : {} @ x -> STOP", "U = TSTOP"));
   EXPECT_TRUE(twins("T = ||| x : {} @ x -> STOP", "U = TSTOP"));
   EXPECT_TRUE(twins("T = || x : {} @ [{x}] x -> STOP", "U = TSTOP"));

@@ -1,4 +1,5 @@
-// Type inference: the types that the corpus says, and what no script of the corpus can hold.
+// Type inference: the types that the corpus says, printed as FDR does (CSPM reference 3.1.9), and
+// what no script of the corpus can hold.
 #include "perentie/semantics/types.hpp"
 
 #include <gtest/gtest.h>
