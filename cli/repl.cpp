@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <charconv>
 #include <filesystem>
 
 #include <fmt/format.h>
 
+#include "check_report.hpp"
 #include "perentie/base/text.hpp"
-#include "perentie/semantics/assertions.hpp"
+#include "perentie/parser/parse.hpp"
+#include "perentie/semantics/check.hpp"
 
 namespace perentie::cli {
 namespace {
@@ -25,14 +29,44 @@ constexpr auto commands = std::to_array<CommandInfo>({
     {"processes", "", "the processes of the script"},
     {"quit", "", "leave (as Ctrl-D does)"},
     {"reload", "", "load the same script again"},
+    {"run", "N", "check the assertion of this number"},
     {"type", "EXPR", "the type of an expression"},
 });
+
+// Declarations that only a script can hold.
+constexpr std::array script_words = std::to_array<std::string_view>(
+    {"channel", "datatype", "subtype", "nametype", "module", "instance", "include", "Timed"});
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string_view first_word(std::string_view text) {
+  const auto end = std::find_if(text.begin(), text.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '\'';
+  });
+  return text.substr(0, static_cast<std::size_t>(end - text.begin()));
+}
+
+// The expressions of an assertion.
+std::vector<parser::ExprId> expressions_of(const parser::SyntaxTree& tree,
+                                           const parser::Assertion& assertion) {
+  std::vector<parser::ExprId> found;
+  if (const auto* r = std::get_if<parser::RefinementAssertion>(&assertion.claim)) {
+    found = {r->specification, r->implementation};
+  } else if (const auto* p = std::get_if<parser::PropertyAssertion>(&assertion.claim)) {
+    found = {p->process};
+  } else {
+    const auto& trace = std::get<parser::HasTraceAssertion>(assertion.claim);
+    const auto events = tree.list(trace.trace);
+    found = {trace.process};
+    found.insert(found.end(), events.begin(), events.end());
+  }
+  if (assertion.options.tau_priority) found.push_back(assertion.options.tau_priority);
+  return found;
 }
 
 // A script of nothing, so that expressions can be evaluated before one is loaded.
@@ -65,6 +99,7 @@ void Repl::open(std::unique_ptr<Session> session) {
   console_.print(session->input.diagnostics, session->input.sources);
   forget_diagnostics(session->input);
   if (!session->script) session->script = empty_script(session->input);
+  session->assertions = semantics::assertions_of(session->script->tree());
   session_ = std::move(session);
 }
 
@@ -82,10 +117,21 @@ bool Repl::answer(std::string_view line) {
   if (text.empty() || text.starts_with("--")) return true;
   if (text.front() == ':') return command(text.substr(1));
   session_->script->set_limits(budget_.limits());
-  constexpr std::string_view let = "let ";
+  const std::string_view word = first_word(text);
   // `let d within e` is an expression.
-  if (text.starts_with(let) && text.find(" within ") == std::string_view::npos) {
-    define(std::string(text.substr(let.size())));
+  if (word == "let" && text.find(" within ") == std::string_view::npos) {
+    define(std::string(text.substr(word.size())));
+  } else if (word == "transparent" || word == "external") {
+    define(std::string(text));
+  } else if (word == "assert") {
+    claim(std::string(text));
+  } else if (word == "print") {
+    evaluate(std::string(text.substr(word.size())));
+  } else if (std::ranges::find(script_words, word) != script_words.end()) {
+    console_.error(fmt::format(
+        "`{}` belongs into a script: write it there and `:load` that. Here are expressions, `let`, "
+        "`transparent`, `external`, `assert` and `print`",
+        word));
   } else {
     evaluate(std::string(text));
   }
@@ -143,6 +189,59 @@ void Repl::define(const std::string& definitions) {
   report(true);
 }
 
+// The text of an assertion whose expressions see the definitions of the session.
+std::string Repl::assertion_in_scope(const std::string& text) const {
+  base::SourceMap sources;
+  base::Diagnostics ignored;  // what is wrong is reported when the text is read in its scope
+  parser::SyntaxTree tree;
+  const auto file = sources.add("", text);
+  const auto assertion = parser::parse_assertion(*file, tree, sources, ignored);
+  if (!assertion || definitions_.empty()) return text;
+  std::vector<base::Span> spans;
+  for (const parser::ExprId e : expressions_of(tree, *assertion)) {
+    spans.push_back(tree.exprs[e].span);
+  }
+  std::ranges::sort(spans, {}, &base::Span::begin);
+  std::string result;
+  std::uint32_t end = 0;
+  for (const base::Span& span : spans) {
+    result += text.substr(end, span.begin - end);
+    result += fmt::format("({})", in_scope(text.substr(span.begin, span.end - span.begin)));
+    end = span.end;
+  }
+  return result + text.substr(end);
+}
+
+void Repl::claim(const std::string& assertion) {
+  auto claimed =
+      session_->script->assertion(assertion_in_scope(assertion), session_->input.diagnostics);
+  if (claimed) {
+    claimed->text = trimmed(std::string_view(assertion).substr(std::string_view("assert").size()));
+    session_->assertions.push_back(std::move(*claimed));
+    const std::size_t number = session_->assertions.size();
+    console_.result(fmt::format("assertion {0} (check it with `:run {0}`)\n", number));
+  }
+  report(claimed.has_value());
+}
+
+void Repl::run(const std::string& number) {
+  const auto& assertions = session_->assertions;
+  std::size_t n = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), n);
+  if (error != std::errc() || *end != '\0' || n == 0 || n > assertions.size()) {
+    console_.error(
+        fmt::format("there is no assertion {}: there are {}", number, assertions.size()));
+    return;
+  }
+  Input& input = session_->input;
+  CheckedAssertion checked{n, &assertions[n - 1], {}, {}, {}};
+  checked.result =
+      semantics::check(*session_->script, assertions[n - 1],
+                       {.limits = budget_.limits(), .progress = {}}, input.diagnostics);
+  console_.result(assertion_as_text(checked, {.sources = input.sources, .file = path_}));
+  report(true);
+}
+
 void Repl::show_processes() {
   for (const std::string& process : session_->script->process_names()) {
     console_.result(process + '\n');
@@ -151,13 +250,15 @@ void Repl::show_processes() {
 
 void Repl::show_assertions() {
   std::size_t number = 0;
-  for (const auto& assertion : semantics::assertions_of(session_->script->tree())) {
+  for (const auto& assertion : session_->assertions) {
     console_.result(fmt::format("{}. {}\n", ++number, assertion.text));
   }
 }
 
 void Repl::help() const {
-  console_.result("An expression is evaluated; `let f(x) = x + 1` adds a definition.\n");
+  console_.result(
+      "An expression is evaluated; `let f(x) = x + 1` adds a definition, `transparent normal` and\n"
+      "`external prioritise` import, `assert STOP [T= STOP` adds an assertion.\n");
   for (const CommandInfo& c : commands) {
     console_.result(fmt::format("  :{:<10} {:<5} {}\n", c.word, c.arguments, c.help));
   }
@@ -172,7 +273,13 @@ bool Repl::command(std::string_view line) {
   for (const CommandInfo& c : commands) {
     if (!word.empty() && c.word.starts_with(word)) meant.push_back(&c);
   }
-  if (meant.size() != 1) {
+  if (meant.size() > 1) {
+    std::vector<std::string> words;
+    for (const CommandInfo* c : meant) words.push_back(fmt::format("`:{}`", c->word));
+    console_.error(fmt::format("`:{}` may be {}", word, fmt::join(words, " or ")));
+    return true;
+  }
+  if (meant.empty()) {
     std::vector<std::string_view> words;
     for (const CommandInfo& c : commands) words.push_back(c.word);
     const auto near = base::nearest_words(word, words);
@@ -191,6 +298,7 @@ bool Repl::command(std::string_view line) {
   if (chosen == "help") help();
   if (chosen == "load") load(argument);
   if (chosen == "processes") show_processes();
+  if (chosen == "run") run(argument);
   if (chosen == "type") show_type(argument);
   if (chosen == "reload") {
     if (path_.empty()) {

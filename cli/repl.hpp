@@ -8,6 +8,7 @@
 
 #include "console.hpp"
 #include "model.hpp"
+#include "perentie/semantics/assertions.hpp"
 
 namespace perentie::cli {
 
@@ -29,6 +30,7 @@ class Repl {
   struct Session {
     Input input;
     std::unique_ptr<semantics::Script> script;
+    std::vector<semantics::ScriptAssertion> assertions;  // the script's, then those of the user
   };
 
   void forget_diagnostics(Input& input);
@@ -36,11 +38,14 @@ class Repl {
   void evaluate(const std::string& expression);
   void show_type(const std::string& expression);
   void define(const std::string& definitions);
+  void claim(const std::string& assertion);
+  void run(const std::string& number);
   void show_processes();
   void show_assertions();
   void help() const;
   bool command(std::string_view line);
   std::string in_scope(const std::string& expression) const;
+  std::string assertion_in_scope(const std::string& text) const;
   void report(bool answered);
 
   const BudgetOptions& budget_;

@@ -7,6 +7,7 @@
 #include "evaluate/machine.hpp"
 #include "lower/lower.hpp"
 #include "machine/compile.hpp"
+#include "perentie/parser/print.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 #include "perentie/semantics/resolve.hpp"
 #include "perentie/semantics/step.hpp"
@@ -210,6 +211,27 @@ std::optional<ProcId> Script::process(parser::ExprId expression, parser::ExprId 
   const std::optional<ValueId> value = impl_->machine->run(entry, diagnostics);
   if (!value) return std::nullopt;
   return impl_->values.as_process(*value);
+}
+
+std::optional<ScriptAssertion> Script::assertion(std::string_view text,
+                                                 base::Diagnostics& diagnostics,
+                                                 const std::string& origin) {
+  const std::size_t errors = diagnostics.error_count();
+  const auto file = impl_->sources.add(origin, std::string(text));
+  if (!file) return std::nullopt;
+  parser::SyntaxTree& tree = impl_->tree;
+  const auto parsed =
+      parser::parse_assertion(*file, tree, impl_->sources, diagnostics, impl_->options);
+  if (!parsed) return std::nullopt;
+  const parser::DeclId decl =
+      tree.decls.add({impl_->sources.span(*file), parser::AssertDecl{*parsed}});
+  const parser::DeclList declarations = tree.decl_lists.add(std::span(&decl, 1));
+  impl_->resolver.resolve_script(declarations, diagnostics);
+  if (diagnostics.error_count() > errors) return std::nullopt;
+  impl_->types->check_declarations(declarations, diagnostics);
+  if (diagnostics.error_count() > errors) return std::nullopt;
+  return ScriptAssertion{parser::print(tree, *parsed, {.width = 0}), tree.decls[decl].span,
+                         *parsed};
 }
 
 std::optional<std::string> Script::type_of(std::string_view expression,

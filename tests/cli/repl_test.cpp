@@ -62,6 +62,49 @@ TEST(ReplTest, CommandsMayBeCutShort) {
   EXPECT_NE(help.errors.find("no script is loaded"), std::string::npos);
 }
 
+// CSPM reference 8.1.
+TEST(ReplTest, ImportsCanBeTyped) {
+  const Outcome outcome =
+      repl("transparent normal\nexternal loop\nlet P = normal(loop(SKIP))\n:type P\n");
+  EXPECT_EQ(outcome.output, "P :: Proc\n") << outcome.errors;
+  EXPECT_NE(repl("transparent nrmal\n").errors.find("[N003]"), std::string::npos);
+}
+
+TEST(ReplTest, AssertionsCanBeTypedAndRun) {
+  const TemporaryFolder folder;
+  const std::string script = folder.file("s.csp", "channel a, b\nP = a -> P\nassert P [T= P\n");
+  const Outcome outcome = repl(
+      "let Q = b -> P\nassert P [T= Q\nassert not Q :[has trace [T]]: <a>\n:run 1\n:run 2\n:run "
+      "3\n:a\n",
+      {script});
+  EXPECT_EQ(outcome.output.find("assertion 2 (check it with `:run 2`)\n"
+                                "assertion 3 (check it with `:run 3`)\n1. P [T= P: holds"),
+            0U)
+      << outcome.output << outcome.errors;
+  EXPECT_NE(outcome.output.find("2. P [T= Q: fails"), std::string::npos);
+  EXPECT_NE(outcome.output.find("3. not Q :[has trace [T]]: <a>: holds"), std::string::npos);
+  EXPECT_NE(outcome.output.find("1. P [T= P\n2. P [T= Q\n3. not Q"), std::string::npos);
+}
+
+TEST(ReplTest, WrongAssertionsAreNotKept) {
+  const Outcome outcome = repl(
+      "assert 1 [T= STOP\nassert STOP [T=\nassert Nowhere :[deadlock free]\n:a\n:run 1\n:run x\n");
+  EXPECT_EQ(outcome.output, "");
+  for (const char* message : {"[T001]", "[P001]", "[N001]", "there is no assertion 1: there are 0",
+                              "there is no assertion x"}) {
+    EXPECT_NE(outcome.errors.find(message), std::string::npos) << message;
+  }
+}
+
+TEST(ReplTest, WhatOnlyAScriptCanHoldIsSaid) {
+  const Outcome outcome = repl("channel c\nmodule M\nprint 1 + 2\nchannels\n:r\n");
+  EXPECT_EQ(outcome.output, "3\n");
+  for (const char* message : {"`channel` belongs into a script", "`module` belongs into a script",
+                              "`channels` is not in scope", "`:r` may be `:reload` or `:run`"}) {
+    EXPECT_NE(outcome.errors.find(message), std::string::npos) << message;
+  }
+}
+
 // CSPM reference 8.3: a failing file leaves an empty session.
 TEST(ReplTest, AScriptWithErrorsLeavesAnEmptySession) {
   const TemporaryFolder folder;

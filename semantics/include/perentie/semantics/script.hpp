@@ -19,6 +19,7 @@
 #include "perentie/lts/transition_system.hpp"
 #include "perentie/parser/ast.hpp"
 #include "perentie/parser/parse.hpp"
+#include "perentie/semantics/assertions.hpp"
 #include "perentie/semantics/process.hpp"
 #include "perentie/semantics/symbols.hpp"
 
@@ -55,6 +56,10 @@ class Script {
   /// The process that an expression stands for.
   std::optional<ProcId> process(std::string_view expression, base::Diagnostics& diagnostics,
                                 const std::string& origin = "<expression>");
+
+  /// An assertion about processes in the script's scope, with or without the word `assert`.
+  std::optional<ScriptAssertion> assertion(std::string_view text, base::Diagnostics& diagnostics,
+                                           const std::string& origin = "<assertion>");
 
   /// The same of expressions in the script itself.
   std::optional<std::string> evaluate(parser::ExprId expression, base::Diagnostics& diagnostics);
