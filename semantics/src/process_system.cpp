@@ -1,20 +1,16 @@
 #include "perentie/semantics/process_system.hpp"
 
-#include <type_traits>
+#include <memory>
 
 namespace perentie::semantics {
 namespace {
 
 // The terms are asked for when the search is over: what they are made from is kept.
 template <class System>
-std::function<ProcId(lts::State)> terms_of(const System& system,
+std::function<ProcId(lts::State)> terms_of(System& system,
                                            std::vector<typename System::State> states) {
-  if constexpr (std::is_same_v<System, TermSystem>) {
-    return [states = std::move(states)](lts::State s) { return states[s.value]; };
-  } else {
-    return
-        [system, states = std::move(states)](lts::State s) { return system.term(states[s.value]); };
-  }
+  const auto kept = std::make_shared<const System>(std::move(system));
+  return [kept, states = std::move(states)](lts::State s) { return kept->term(states[s.value]); };
 }
 
 }  // namespace

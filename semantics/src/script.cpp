@@ -9,6 +9,7 @@
 #include "machine/compile.hpp"
 #include "perentie/parser/print.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
+#include "perentie/semantics/lazy_machine.hpp"
 #include "perentie/semantics/resolve.hpp"
 #include "perentie/semantics/step.hpp"
 #include "perentie/semantics/types.hpp"
@@ -41,6 +42,10 @@ struct Script::Impl {
 
   bool prepare(base::Diagnostics& diagnostics);
   std::shared_ptr<const lts::LabelNames> label_names() const;
+  MachineParts machine_parts() {
+    return {*machine, events, processes, [this] { return label_names(); },
+            [this] { return machine->memory_bytes(); }};
+  }
   void load_prelude(base::Diagnostics& diagnostics);
   void mark_processes_by_type();
   parser::ExprId prioritised(parser::ExprId process, parser::ExprId lower);
@@ -367,9 +372,11 @@ bool TermSystem::successors(State state, std::vector<lts::Transition<State>>& ou
 }
 
 MachineCompilation Script::machine(ProcId process, const MachineOptions& options) {
-  const MachineParts parts{*impl_->machine, impl_->events, impl_->processes,
-                           [this] { return impl_->label_names(); }};
-  return compile_machine(process, parts, options);
+  return compile_machine(process, impl_->machine_parts(), options);
+}
+
+LazyMachine Script::lazy_machine(ProcId process, base::Diagnostics& diagnostics) {
+  return LazyMachine(process, impl_->machine_parts(), diagnostics);
 }
 
 ProcId Script::term(const CompiledMachine& machine, std::span<const std::uint64_t> state) {

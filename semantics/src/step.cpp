@@ -40,12 +40,16 @@ bool is_worth_knowing(ProcKind kind) {
 
 }  // namespace
 
-bool StepRules::successors(ProcId process, Steps& out) {
+bool StepRules::unsettled_successors(ProcId process, Steps& out) {
   limit_.reset();
   unfolding_.clear();
   depth_ = 0;
+  return step(process, out);
+}
+
+bool StepRules::successors(ProcId process, Steps& out) {
   const std::size_t first = out.size();
-  if (!step(process, out)) return false;
+  if (!unsettled_successors(process, out)) return false;
   for (std::size_t i = first; i < out.size(); ++i) {
     const std::optional<ProcId> target = settle(out[i].target);
     if (!target) return false;

@@ -63,7 +63,13 @@ std::string composed(int depth) {
       break;
   }
   const std::string q = composed(depth - 1);
-  switch (pick(13)) {
+  switch (pick(16)) {
+    case 13:
+      return "(" + p + " [> " + q + ")";
+    case 14:
+      return "(" + p + " [|{" + one + "}|> " + q + ")";
+    case 15:
+      return "(" + one + " -> " + p + " |~| " + q + ")";
     case 0:
     case 1:
       return "(" + p + " ||| " + q + ")";
@@ -106,6 +112,24 @@ RC_GTEST_PROP(MachinePropertyTest, MachinesHaveTheLtsOfTheStepRules, ()) {
   RC_CLASSIFY(found.machine.has_value(), "machine");
   if (!found.machine) return;
   RC_ASSERT(same_reached(*found.steps, *found.machine));
+}
+
+// Parallels anywhere: under operators that switch, after prefixes, under names.
+RC_GTEST_PROP(MachinePropertyTest, LazyMachinesAreExact, ()) {
+  std::string definitions = "external prioritise\nchannel a, b, c\n";
+  for (int i = 0; i < 3; ++i) {
+    const std::string parallel = sequential(1, false) + " ||| " + sequential(1, false);
+    definitions += "P" + std::to_string(i) + " = ";
+    definitions += pick(3) == 0
+                       ? "(" + parallel + ") ; " + event() + " -> P" + std::to_string(pick(3))
+                       : sequential(2, true);
+    definitions += "\n";
+  }
+  const std::string process = composed(3);
+  RC_LOG() << definitions << process;
+  TestScript script(definitions);
+  RC_ASSERT(script.loaded());
+  RC_ASSERT(lazy_machine_is_exact(script, process, 1'000));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "perentie/lts/explore.hpp"
+#include "perentie/semantics/lazy_machine.hpp"
 #include "perentie/semantics/process_system.hpp"
 
 namespace perentie::semantics {
@@ -62,6 +63,49 @@ BothWays explore_both_ways(TestScript& test, const std::string& process, std::si
     return ::testing::AssertionFailure()
            << "the step rules give " << steps.transitions.size() << " transitions, the machine "
            << machine.transitions.size();
+  }
+  return ::testing::AssertionSuccess();
+}
+
+::testing::AssertionResult lazy_machine_is_exact(TestScript& test, const std::string& process,
+                                                 std::uint64_t max_states) {
+  base::Diagnostics unheard;
+  Script& script = test.script();
+  const auto term = script.process(process, unheard, process);
+  if (!term) return ::testing::AssertionSuccess();
+  const lts::ExploreOptions options{.limits = {.max_states = max_states}};
+  LazyMachine machine = script.lazy_machine(*term, unheard);
+  const auto found = lts::explore(machine, options);
+  TermSystem terms = script.terms(*term, unheard);
+  const auto expected = lts::explore(terms, options);
+  if (found.states.size() != expected.states.size() || found.expanded != expected.expanded ||
+      found.transitions_fired != expected.transitions_fired) {
+    return ::testing::AssertionFailure()
+           << "the step rules give " << expected.states.size() << " states and "
+           << expected.transitions_fired << " transitions, the machine " << found.states.size()
+           << " and " << found.transitions_fired;
+  }
+  std::vector<lts::Transition<LazyMachine::State>> of_machine;
+  std::vector<lts::Transition<ProcId>> of_rules;
+  for (std::size_t s = 0; s < found.states.size(); ++s) {
+    if (machine.term(found.states[s]) != expected.states[s]) {
+      return ::testing::AssertionFailure()
+             << "state " << s << " is " << script.show(machine.term(found.states[s])) << ", not "
+             << script.show(expected.states[s]);
+    }
+    if (s >= found.expanded) continue;
+    of_machine.clear();
+    of_rules.clear();
+    machine.successors(found.states[s], of_machine);
+    terms.successors(expected.states[s], of_rules);
+    const bool same = std::equal(of_machine.begin(), of_machine.end(), of_rules.begin(),
+                                 of_rules.end(), [&](const auto& m, const auto& r) {
+                                   return m.label == r.label && machine.term(m.target) == r.target;
+                                 });
+    if (!same) {
+      return ::testing::AssertionFailure()
+             << "the transitions of " << script.show(expected.states[s]) << " differ";
+    }
   }
   return ::testing::AssertionSuccess();
 }

@@ -41,4 +41,9 @@ BothWays explore_both_ways(TestScript& script, const std::string& process,
 /// Whether both have the same states, each once, and the same transitions, as often.
 ::testing::AssertionResult same_reached(const Reached& steps, const Reached& machine);
 
+/// Whether the lazy machine of a process has the states, transitions, order and repetitions of the
+/// step rules, as far as `max_states` of both go. A process without a value is no failure.
+::testing::AssertionResult lazy_machine_is_exact(TestScript& script, const std::string& process,
+                                                 std::uint64_t max_states = 5'000);
+
 }  // namespace perentie::semantics

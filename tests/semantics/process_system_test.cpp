@@ -40,8 +40,8 @@ Used use(const std::string& process, const base::Limits& limits, std::vector<Pro
   used.count = with_process_system(
       script.script(), *term, {.limits = limits}, diagnostics,
       [&](auto& system, const lts::ExploreOptions& options) {
-        const bool is_terms = std::is_same_v<std::decay_t<decltype(system)>, TermSystem>;
-        used.systems.emplace_back(is_terms ? "terms" : "machine");
+        const bool is_lazy = std::is_same_v<std::decay_t<decltype(system)>, LazyMachine>;
+        used.systems.emplace_back(is_lazy ? "lazy" : "machine");
         return lts::count(system, options);
       },
       trials);
@@ -57,27 +57,27 @@ TEST(ProcessSystemTest, SmallLeavesMakeAMachine) {
   EXPECT_EQ(used.count.states, 101U * 101U);
 }
 
-TEST(ProcessSystemTest, WhatIsNoParallelIsLeftToTheStepRules) {
-  EXPECT_EQ(use("COUNT(0)", {}, {{1'000, 10}}).systems, Systems({"terms"}));
+TEST(ProcessSystemTest, WhatIsNoParallelIsLazy) {
+  EXPECT_EQ(use("COUNT(0)", {}, {{1'000, 10}}).systems, Systems({"lazy"}));
 }
 
 // The leaves have 101 and 3 states, the whole has 3.
 TEST(ProcessSystemTest, LeavesThatAreLargerThanTheWholeAreNotExplored) {
   const Used used = use("COUNT(0) [|{a}|] TWICE", {}, {{20, 10}, {1'000, 1'000}});
-  EXPECT_EQ(used.systems, Systems({"terms"}));
+  EXPECT_EQ(used.systems, Systems({"lazy"}));
   EXPECT_EQ(used.count.states, 3U);
 }
 
 TEST(ProcessSystemTest, LargerLeavesAreTriedWhenTheWholeIsLargeToo) {
   const Used used = use("COUNT(0) ||| LONG(0)", {}, {{20, 50}, {100, 500}, {1'000, 5'000}});
-  EXPECT_EQ(used.systems, Systems({"terms", "terms", "machine"}));
+  EXPECT_EQ(used.systems, Systems({"lazy", "lazy", "machine"}));
   EXPECT_EQ(used.count.states, 101U * 101U);
   EXPECT_FALSE(used.count.limit);
 }
 
-TEST(ProcessSystemTest, AfterTheLastTrialTheStepRulesHaveNoBound) {
+TEST(ProcessSystemTest, AfterTheLastTrialTheLazyMachineHasNoBound) {
   const Used used = use("COUNT(0) ||| LONG(0)", {}, {{20, 50}});
-  EXPECT_EQ(used.systems, Systems({"terms", "terms"}));
+  EXPECT_EQ(used.systems, Systems({"lazy", "lazy"}));
   EXPECT_EQ(used.count.states, 101U * 101U);
 }
 
@@ -91,11 +91,11 @@ TEST(ProcessSystemTest, TheBoundOnStatesIsTheCallersOwnInEverySystem) {
   }
 }
 
-TEST(ProcessSystemTest, AFailingProcessIsReportedByTheStepRulesOnce) {
+TEST(ProcessSystemTest, AFailingProcessIsReportedOnce) {
   std::string messages;
   const Used used = use("BAD ||| LONG(0)", {}, {{20, 5'000}, {1'000, 5'000}}, &messages);
   EXPECT_TRUE(used.count.failed);
-  EXPECT_EQ(used.systems, Systems({"terms"}));
+  EXPECT_EQ(used.systems, Systems({"lazy"}));
   EXPECT_EQ(messages.find("error"), messages.rfind("error")) << messages;
 }
 

@@ -21,6 +21,8 @@ struct MachineParts {
   ProcStore& processes;
   /// Asked for when all leaves are explored.
   std::function<std::shared_ptr<const lts::LabelNames>()> label_names;
+  /// What values and terms hold.
+  std::function<std::size_t()> memory_bytes;
 };
 
 MachineCompilation compile_machine(ProcId process, const MachineParts& parts,

@@ -63,8 +63,10 @@ class ProcStore {
   ProcId call(ValueId function, std::span<const ValueId> arguments);
   /// The term of the same kind with other words; `words` must not lie in this store.
   ProcId rebuild(ProcId process, std::span<const std::uint32_t> words) {
-    return intern(kind(process), words);
+    return make(kind(process), words);
   }
+  /// The term of these words as they are; `words` must not lie in this store.
+  ProcId make(ProcKind kind, std::span<const std::uint32_t> words) { return intern(kind, words); }
   /// Events of an earlier set, τ and ✓ block those of later sets (4.5.1).
   ProcId prioritise(ProcId operand, std::span<const EventSetId> order);
   /// τ and ✓ block `below_tau`; an event is blocked by those it is related to (4.5.6). The relation

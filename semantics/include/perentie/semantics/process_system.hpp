@@ -1,9 +1,9 @@
 // with_process_system: a process as the transition system that computes it fastest.
 //
-// A compiled machine is far faster than the step rules once it is there, but its leaves may be
-// larger than the whole process. So small leaves are tried first, then the step rules up to some
-// number of states, then larger leaves, and so on. Which system answers depends on sizes alone, not
-// on time; states and transitions are the same in all.
+// A compiled machine is faster than a lazy one once it is there, but its leaves may be larger than
+// the whole process. So small leaves are tried first, then the lazy machine up to some number of
+// states, then larger leaves, and so on. Which system answers depends on sizes alone, not on time;
+// states and transitions are those of the step rules in all.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +19,13 @@
 #include "perentie/base/limits.hpp"
 #include "perentie/lts/explore.hpp"
 #include "perentie/lts/refine.hpp"
+#include "perentie/semantics/lazy_machine.hpp"
 #include "perentie/semantics/machine.hpp"
 #include "perentie/semantics/script.hpp"
 
 namespace perentie::semantics {
 
-/// A machine that knows its terms, with the members that `TermSystem` has.
+/// A compiled machine that knows its terms, with the members that `LazyMachine` has.
 template <std::size_t words>
 class MachineProcess : public MachineSystem<words> {
  public:
@@ -41,7 +42,7 @@ class MachineProcess : public MachineSystem<words> {
   std::shared_ptr<const CompiledMachine> machine_;
 };
 
-/// Leaves of so many states are tried, then the step rules up to so many states of the whole.
+/// Leaves of so many states are tried, then the lazy machine up to so many states of the whole.
 struct ProcessTrial {
   std::uint64_t leaf_states;
   std::uint64_t states;
@@ -54,7 +55,7 @@ inline constexpr ProcessTrial process_trials[] = {
 
 /// Calls `use(system, options)` and returns its result, which is of one type for all systems and
 /// has a member `limit`, the budget that ran out. It may be called again with another system if
-/// that is the number of states. `system` is a `TermSystem` or a `MachineProcess`.
+/// that is the number of states. `system` is a `LazyMachine` or a `MachineProcess`.
 template <class Use>
 auto with_process_system(Script& script, ProcId process, const lts::ExploreOptions& options,
                          base::Diagnostics& diagnostics, Use use,
@@ -73,8 +74,8 @@ auto with_process_system(Script& script, ProcId process, const lts::ExploreOptio
     }
     return left;
   };
-  const auto use_terms = [&](std::uint64_t max_states) {
-    TermSystem system = script.terms(process, diagnostics);
+  const auto use_lazy = [&](std::uint64_t max_states) {
+    LazyMachine system = script.lazy_machine(process, diagnostics);
     return use(system, rest(max_states));
   };
   for (const ProcessTrial& trial : trials) {
@@ -88,12 +89,12 @@ auto with_process_system(Script& script, ProcId process, const lts::ExploreOptio
       });
     }
     if (!compilation.has_large_leaves) break;
-    auto result = use_terms(trial.states);
+    auto result = use_lazy(trial.states);
     const bool is_cut = result.limit && result.limit->kind == base::LimitKind::states &&
                         options.limits.max_states.value_or(any) > trial.states;
     if (!is_cut) return result;
   }
-  return use_terms(any);
+  return use_lazy(any);
 }
 
 /// A process as a graph, whatever system it came from.

@@ -25,6 +25,7 @@
 
 namespace perentie::semantics {
 
+class LazyMachine;
 class TermSystem;
 struct CompiledMachine;
 struct MachineCompilation;
@@ -72,6 +73,8 @@ class Script {
   bool names_timed_constants(parser::ExprId expression) const;
   /// The transitions of a process by the step rules. The script must outlive the system.
   TermSystem terms(ProcId process, base::Diagnostics& diagnostics);
+  /// The same process as a machine that is made while it is explored (`lazy_machine.hpp`).
+  LazyMachine lazy_machine(ProcId process, base::Diagnostics& diagnostics);
   /// The same process as a compiled machine (`machine.hpp`), where that is worth it. Nothing is
   /// reported: without a machine the step rules are to be used.
   MachineCompilation machine(ProcId process, const MachineOptions& options);

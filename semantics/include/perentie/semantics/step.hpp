@@ -52,6 +52,10 @@ class StepRules {
   /// Appends the transitions of a term, with targets that are states. False: they cannot be
   /// computed; the reason was reported, or `limit()` says which budget ran out.
   bool successors(ProcId process, Steps& out);
+  /// The same with the targets that the rules give, before names are followed.
+  bool unsettled_successors(ProcId process, Steps& out);
+  /// The term of `left ; right` as the target of a step: `right` if `left` can only terminate.
+  std::optional<ProcId> sequential_target(ProcId left, ProcId right);
   std::optional<base::LimitReached> limit() const { return limit_; }
 
  private:
@@ -81,7 +85,6 @@ class StepRules {
   void report(const base::DiagnosticCode& code, ProcId term, std::string message);
   void chaos(ProcId process, Steps& out);
 
-  std::optional<ProcId> sequential_target(ProcId left, ProcId right);
   std::optional<bool> only_terminates(ProcId process);
   ProcId with_operand(ProcId process, std::size_t word, ProcId operand);
   ProcId after(ProcId process, std::size_t word, const Step& step);
