@@ -17,7 +17,6 @@
 #include "perentie/base/limits.hpp"
 #include "perentie/base/unique_index.hpp"
 #include "perentie/lts/explore.hpp"
-#include "perentie/lts/lazy_graph.hpp"
 #include "perentie/lts/specifications.hpp"
 #include "perentie/lts/watch.hpp"
 
@@ -62,23 +61,24 @@ class RefinementSearch {
 
   RefinementSearch(System& system, const Specification& specification, SemanticModel model,
                    const ExploreOptions& options)
-      : graph_(system),
+      : system_(system),
         specification_(specification),
         model_(model),
         options_(options),
-        watch_(options.limits) {}
+        watch_(options.limits),
+        states_(system, State::none_value) {}
 
   RefineResult<S> run() && {
-    add({State{0}, graph_.initial()}, 0, {});
+    add({State{0}, *states_.add(system_.initial())}, 0, {});
     std::size_t level_end = 1;
-    for (std::size_t p = 0; p < pairs_.size() && goes_on(); ++p) {
-      if (p == level_end) {
+    while (visited_ < pairs_.size() && goes_on()) {
+      if (visited_ == level_end) {
         // The level of a counterexample is counted to its end, deeper ones are not.
         if (result_.counterexample) return finish(level_end);
         ++result_.counts.plys;
         level_end = pairs_.size();
       }
-      visit(p);
+      visit_block(std::min(level_end, visited_ + block_size));
     }
     if (!result_.counterexample && goes_on()) ++result_.counts.plys;
     return finish(result_.counterexample ? level_end : pairs_.size());
@@ -104,30 +104,57 @@ class RefinementSearch {
     return std::move(result_);
   }
 
+  // Most states are met with one node only, so that one lies beside the state; others are looked
+  // up.
   void add(Pair pair, std::uint32_t from, Label label) {
-    const auto hash = [](const Pair& p) {
-      return base::hash_mix(0, (std::uint64_t{p.node.value} << 32U) | p.state.value);
-    };
-    const auto number = static_cast<std::uint32_t>(pairs_.size());
-    const auto [found, inserted] = index_.find_or_insert(
-        hash(pair), number, [&](std::uint32_t other) { return pairs_[other] == pair; },
-        [&](std::uint32_t other) { return hash(pairs_[other]); });
-    if (!inserted) return;
+    if (first_node_.size() <= pair.state.value) first_node_.resize(states_.size());
+    State& first = first_node_[pair.state.value];
+    if (first == pair.node) return;
+    if (!first) {
+      first = pair.node;
+    } else {
+      const auto hash = [](const Pair& p) {
+        return base::hash_mix(0, (std::uint64_t{p.node.value} << 32U) | p.state.value);
+      };
+      const bool is_new =
+          further_index_
+              .find_or_insert(
+                  hash(pair), static_cast<std::uint32_t>(further_pairs_.size()),
+                  [&](std::uint32_t other) { return further_pairs_[other] == pair; },
+                  [&](std::uint32_t other) { return hash(further_pairs_[other]); })
+              .inserted;
+      if (!is_new) return;
+      further_pairs_.push_back(pair);
+    }
     pairs_.push_back(pair);
     arrivals_.push_back({from, label});
+    const std::uint64_t max_pairs = options_.limits.max_states.value_or(State::none_value);
+    if (pairs_.size() > max_pairs) {
+      result_.limit = base::LimitReached{base::LimitKind::states, max_pairs};
+    }
   }
 
-  // Looks at the budgets: now and then at the clock, and at the number of pairs.
-  bool is_within_budget() {
-    if (options_.limits.max_states && pairs_.size() > *options_.limits.max_states) {
-      result_.limit = base::LimitReached{base::LimitKind::states, *options_.limits.max_states};
+  // The number of a state. False if there are too many to number.
+  bool number(S&& state, std::uint64_t hash, State& to) {
+    const auto found = states_.add(std::move(state), hash);
+    if (!found) {
+      result_.limit = base::LimitReached{base::LimitKind::states, State::none_value};
       return false;
     }
+    to = *found;
+    return true;
+  }
+
+  // Looks at the clock and at the memory now and then.
+  bool is_within_budget() {
     if (!watch_.due()) return true;
     result_.limit = watch_.look();
     if (!result_.limit) {
-      const std::uint64_t bytes = graph_.peak_bytes() + lts::peak_bytes(pairs_, 1) +
-                                  lts::peak_bytes(arrivals_, 1) + lts::peak_bytes(index_, 1);
+      std::uint64_t bytes = states_.peak_bytes(1) + lts::peak_bytes(pairs_, 1) +
+                            lts::peak_bytes(arrivals_, 1) + lts::peak_bytes(first_node_, 1) +
+                            lts::peak_bytes(further_pairs_, 1) +
+                            lts::peak_bytes(further_index_, 1) + lts::peak_bytes(divergence_, 1);
+      if constexpr (requires { system_.memory_bytes(); }) bytes += system_.memory_bytes();
       result_.limit = watch_.budget().check_memory(bytes);
       report(bytes);
     }
@@ -143,128 +170,180 @@ class RefinementSearch {
                        pairs_.size() - visited_, bytes, now});
   }
 
-  void visit(std::size_t p) {
-    if (!is_within_budget()) return;
-    visited_ = p + 1;
-    const Pair pair = pairs_[p];
-    const auto row = graph_.row(pair.state);
-    if (!row) {
-      result_.failed = true;
-      return;
+  // The successors of a few pairs are computed together, so that the look-ups of theirs can wait
+  // for memory at the same time. The result does not depend on how many.
+  static constexpr std::size_t block_size = 16;
+
+  void visit_block(std::size_t last) {
+    successors_.clear();
+    row_ends_.clear();
+    bool has_failed = false;
+    for (std::size_t p = visited_; p < last && !has_failed; ++p) {
+      if (!is_within_budget()) return;
+      has_failed = !system_.successors(states_[pairs_[p].state.value], successors_);
+      if (!has_failed) row_ends_.push_back(successors_.size());
     }
-    const std::vector<Edge> edges(row->begin(), row->end());
-    result_.counts.transitions += edges.size();
+    hashes_.clear();
+    for (const Transition<S>& transition : successors_) {
+      hashes_.push_back(system_.state_hash(transition.target));
+      states_.prefetch_slot(hashes_.back());
+    }
+    for (const std::uint64_t hash : hashes_) states_.prefetch_state(hash);
+    std::size_t begin = 0;
+    for (const std::size_t end : row_ends_) {
+      visit(begin, end);
+      if (!goes_on()) return;
+      begin = end;
+    }
+    result_.failed = has_failed;
+  }
+
+  // The next pair, whose successors are [begin, end).
+  void visit(std::size_t begin, std::size_t end) {
+    const std::size_t p = visited_++;
+    result_.counts.transitions += end - begin;
     if (result_.counterexample) return;  // only counted
+    const State node = pairs_[p].node;
     const bool divergences = model_ == SemanticModel::failures_divergences;
     // After a divergence of the specification everything is allowed (5.2.3).
-    if (divergences && specification_.allows_divergence(pair.node)) return;
-    if (check(p, edges) || !goes_on()) return;
-    for (const Edge& edge : edges) {
-      const State node =
-          edge.label == tau ? pair.node : *specification_.next(pair.node, edge.label);
-      add({node, edge.target}, static_cast<std::uint32_t>(p), edge.label);
+    if (divergences && specification_.allows_divergence(node)) return;
+    nodes_.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      const Label label = successors_[i].label;
+      const auto next = label == tau ? node : specification_.next(node, label);
+      if (!next) {
+        refute(Counterexample<S>::Kind::event, p).event = label;
+        return;
+      }
+      nodes_.push_back(*next);
+    }
+    if (model_ != SemanticModel::traces && refutes_failures(p, begin, end)) return;
+    for (std::size_t i = begin; i < end; ++i) {
+      State target;
+      if (!number(std::move(successors_[i].target), hashes_[i], target)) return;
+      add({nodes_[i - begin], target}, static_cast<std::uint32_t>(p), successors_[i].label);
+      if (result_.limit) return;
     }
   }
 
-  // Whether the pair is a counterexample: by an event, an acceptance, a divergence, in this order.
-  bool check(std::size_t p, const std::vector<Edge>& edges) {
+  // Whether the pair is a counterexample by an acceptance or a divergence, or a limit was reached.
+  bool refutes_failures(std::size_t p, std::size_t begin, std::size_t end) {
     using Kind = typename Counterexample<S>::Kind;
     const Pair pair = pairs_[p];
-    bool stable = true;
-    std::vector<Label> offered;
-    for (const Edge& edge : edges) {
-      if (edge.label == tau) {
-        stable = false;
-      } else if (!specification_.next(pair.node, edge.label)) {
-        refute(Kind::event, p).event = edge.label;
-        return true;
-      } else {
-        offered.push_back(edge.label);
-      }
-    }
-    if (model_ == SemanticModel::traces) return false;
-    if (stable) {
-      std::ranges::sort(offered);
-      offered.erase(std::unique(offered.begin(), offered.end()), offered.end());
-      if (specification_.accepts(pair.node, offered)) return false;
-      refute(Kind::acceptance, p).offered = std::move(offered);
+    offered_.clear();
+    for (std::size_t i = begin; i < end; ++i) offered_.push_back(successors_[i].label);
+    std::ranges::sort(offered_);
+    const bool is_stable = offered_.empty() || offered_.front() != tau;
+    if (is_stable) {
+      offered_.erase(std::unique(offered_.begin(), offered_.end()), offered_.end());
+      if (specification_.accepts(pair.node, offered_)) return false;
+      refute(Kind::acceptance, p).offered = offered_;
       return true;
     }
-    if (model_ == SemanticModel::failures || !diverges(pair.state)) return false;
-    refute(Kind::divergence, p);
-    return true;
+    if (model_ == SemanticModel::failures) return false;
+    const bool is_divergent = diverges(pair.state);
+    if (is_divergent) refute(Kind::divergence, p);
+    return is_divergent || !goes_on();
   }
 
   Counterexample<S>& refute(typename Counterexample<S>::Kind kind, std::size_t p) {
     Counterexample<S> found{.kind = kind, .trace = {}, .states = {}, .node = pairs_[p].node};
-    found.states.push_back(graph_.state(pairs_[p].state));
+    found.states.push_back(states_[pairs_[p].state.value]);
     while (p != 0) {
       found.trace.push_back(arrivals_[p].label);
       p = arrivals_[p].from;
-      found.states.push_back(graph_.state(pairs_[p].state));
+      found.states.push_back(states_[pairs_[p].state.value]);
     }
     std::ranges::reverse(found.trace);
     std::ranges::reverse(found.states);
     return result_.counterexample.emplace(std::move(found));
   }
 
-  // Whether τ leads from a state to a cycle of τ: a depth-first search that remembers (5.2.11).
+  // --- Divergence: whether τ leads from a state to a cycle of τ (5.2.11) -----------------------
+
+  struct Step {
+    State state;
+    std::size_t first_target;  // of `tau_targets_`: those that are left to be followed end there
+  };
+
+  // A depth-first search that remembers.
   bool diverges(State start) {
-    struct Step {
-      State state;
-      std::size_t next;  // of its row
-    };
-    std::vector<Step> path;
-    const auto enter = [&](State state) {
-      if (divergence_.size() < graph_.size()) {
-        divergence_.resize(graph_.size(), Divergence::unknown);
-      }
-      divergence_[state.value] = Divergence::open;
-      path.push_back({state, 0});
-    };
-    if (start.value < divergence_.size() && divergence_[start.value] != Divergence::unknown) {
-      return divergence_[start.value] == Divergence::yes;
-    }
-    enter(start);
-    while (!path.empty()) {
-      if (watch_.due()) result_.limit = watch_.look();
-      const auto row = result_.limit ? std::nullopt : graph_.row(path.back().state);
-      if (!row) {
-        result_.failed = !result_.limit;
-        for (const Step& step : path) divergence_[step.state.value] = Divergence::unknown;
-        return false;
-      }
-      std::size_t& next = path.back().next;
-      while (next < row->size() && (*row)[next].label != tau) ++next;
-      if (next == row->size()) {
-        divergence_[path.back().state.value] = Divergence::no;
-        path.pop_back();
+    if (divergence_of(start) != Divergence::unknown) return divergence_of(start) == Divergence::yes;
+    if (!enter(start)) return false;
+    while (!path_.empty()) {
+      if (tau_targets_.size() == path_.back().first_target) {
+        divergence_[path_.back().state.value] = Divergence::no;
+        path_.pop_back();
         continue;
       }
-      const State target = (*row)[next++].target;
-      const Divergence known =
-          target.value < divergence_.size() ? divergence_[target.value] : Divergence::unknown;
-      if (known == Divergence::no) continue;
-      if (known == Divergence::unknown) {
-        enter(target);
-        continue;
+      const State target = tau_targets_.back();
+      tau_targets_.pop_back();
+      switch (divergence_of(target)) {
+        case Divergence::no:
+          break;
+        case Divergence::unknown:
+          if (!enter(target)) return false;
+          break;
+        case Divergence::open:
+        case Divergence::yes:
+          for (const Step& step : path_) divergence_[step.state.value] = Divergence::yes;
+          path_.clear();
+          tau_targets_.clear();
+          return true;
       }
-      for (const Step& step : path) divergence_[step.state.value] = Divergence::yes;
-      return true;
     }
     return false;
   }
 
-  LazyGraph<System> graph_;
+  Divergence divergence_of(State state) const {
+    return state.value < divergence_.size() ? divergence_[state.value] : Divergence::unknown;
+  }
+
+  // Puts a state on the path, with its successors by τ. False if they cannot be computed.
+  bool enter(State state) {
+    if (!is_within_budget()) return false;
+    tau_successors_.clear();
+    result_.failed = !system_.successors(states_[state.value], tau_successors_);
+    if (result_.failed) return false;
+    path_.push_back({state, tau_targets_.size()});
+    for (Transition<S>& transition : tau_successors_) {
+      if (transition.label != tau) continue;
+      State target;
+      const std::uint64_t hash = system_.state_hash(transition.target);
+      if (!number(std::move(transition.target), hash, target)) return false;
+      tau_targets_.push_back(target);
+    }
+    if (divergence_.size() < states_.size()) {
+      divergence_.resize(states_.size(), Divergence::unknown);
+    }
+    divergence_[state.value] = Divergence::open;
+    return true;
+  }
+
+  System& system_;
   const Specification& specification_;
   SemanticModel model_;
   const ExploreOptions& options_;
   Watch watch_;
-  std::vector<Pair> pairs_;             // the queue, too
-  std::vector<Arrival> arrivals_;       // by pair
-  base::UniqueIndex index_;             // of pairs
+  VisitedStates<System> states_;
+  std::vector<Pair> pairs_;          // the queue, too
+  std::vector<Arrival> arrivals_;    // by pair
+  std::vector<State> first_node_;    // by state: of the first pair with it, if there is one
+  std::vector<Pair> further_pairs_;  // the others
+  base::UniqueIndex further_index_;  // of these
+  std::size_t visited_ = 0;          // pairs
+
+  std::vector<Transition<S>> successors_;  // of the pairs in work
+  std::vector<std::size_t> row_ends_;      // where those of each end
+  std::vector<std::uint64_t> hashes_;      // of the successors
+  std::vector<State> nodes_;               // that the successors of the pair in work lead to
+  std::vector<Label> offered_;             // by the pair in work
+
   std::vector<Divergence> divergence_;  // by state
-  std::size_t visited_ = 0;
+  std::vector<Step> path_;
+  std::vector<State> tau_targets_;
+  std::vector<Transition<S>> tau_successors_;
+
   double last_report_ = 0;
   RefineResult<S> result_;
 };
