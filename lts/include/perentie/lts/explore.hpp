@@ -89,8 +89,11 @@ class VisitedStates {
   /// Two steps that may precede `add` by some time and make it cheaper: the table waits for memory,
   /// then the states do.
   void prefetch_slot(std::uint64_t hash) const { index_.prefetch(hash); }
-  void prefetch_state(std::uint64_t hash) const {
-    if (const auto number = index_.candidate(hash)) __builtin_prefetch(&states_[*number]);
+  /// Returns the number of the state that `add` will probably find.
+  std::optional<std::uint32_t> prefetch_state(std::uint64_t hash) const {
+    const auto number = index_.candidate(hash);
+    if (number) __builtin_prefetch(&states_[*number]);
+    return number;
   }
 
   const S& operator[](std::size_t number) const { return states_[number]; }

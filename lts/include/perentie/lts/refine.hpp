@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,8 @@
 #include "perentie/base/limits.hpp"
 #include "perentie/base/unique_index.hpp"
 #include "perentie/lts/explore.hpp"
+#include "perentie/lts/memory.hpp"
+#include "perentie/lts/runs.hpp"
 #include "perentie/lts/specifications.hpp"
 #include "perentie/lts/watch.hpp"
 
@@ -180,7 +183,8 @@ class RefinementSearch {
     bool has_failed = false;
     for (std::size_t p = visited_; p < last && !has_failed; ++p) {
       if (!is_within_budget()) return;
-      has_failed = !system_.successors(states_[pairs_[p].state.value], successors_);
+      const State state = pairs_[p].state;
+      has_failed = !has_row(state) && !system_.successors(states_[state.value], successors_);
       if (!has_failed) row_ends_.push_back(successors_.size());
     }
     hashes_.clear();
@@ -188,7 +192,10 @@ class RefinementSearch {
       hashes_.push_back(system_.state_hash(transition.target));
       states_.prefetch_slot(hashes_.back());
     }
-    for (const std::uint64_t hash : hashes_) states_.prefetch_state(hash);
+    for (const std::uint64_t hash : hashes_) {
+      const auto probable = states_.prefetch_state(hash);
+      if (probable && *probable < first_node_.size()) __builtin_prefetch(&first_node_[*probable]);
+    }
     std::size_t begin = 0;
     for (const std::size_t end : row_ends_) {
       visit(begin, end);
@@ -201,37 +208,45 @@ class RefinementSearch {
   // The next pair, whose successors are [begin, end).
   void visit(std::size_t begin, std::size_t end) {
     const std::size_t p = visited_++;
-    result_.counts.transitions += end - begin;
+    const auto [node, state] = pairs_[p];
+    if (has_row(state)) {
+      edges_ = rows_[row_of_[state.value]];
+    } else {
+      row_.clear();
+      for (std::size_t i = begin; i < end; ++i) {
+        State target;
+        if (!number(std::move(successors_[i].target), hashes_[i], target)) return;
+        row_.push_back({successors_[i].label, target});
+      }
+      edges_ = row_;
+    }
+    result_.counts.transitions += edges_.size();
     if (result_.counterexample) return;  // only counted
-    const State node = pairs_[p].node;
     const bool divergences = model_ == SemanticModel::failures_divergences;
     // After a divergence of the specification everything is allowed (5.2.3).
     if (divergences && specification_.allows_divergence(node)) return;
     nodes_.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-      const Label label = successors_[i].label;
-      const auto next = label == tau ? node : specification_.next(node, label);
+    for (const Edge& edge : edges_) {
+      const auto next = edge.label == tau ? node : specification_.next(node, edge.label);
       if (!next) {
-        refute(Counterexample<S>::Kind::event, p).event = label;
+        refute(Counterexample<S>::Kind::event, p).event = edge.label;
         return;
       }
       nodes_.push_back(*next);
     }
-    if (model_ != SemanticModel::traces && refutes_failures(p, begin, end)) return;
-    for (std::size_t i = begin; i < end; ++i) {
-      State target;
-      if (!number(std::move(successors_[i].target), hashes_[i], target)) return;
-      add({nodes_[i - begin], target}, static_cast<std::uint32_t>(p), successors_[i].label);
+    if (model_ != SemanticModel::traces && refutes_failures(p)) return;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      add({nodes_[i], edges_[i].target}, static_cast<std::uint32_t>(p), edges_[i].label);
       if (result_.limit) return;
     }
   }
 
   // Whether the pair is a counterexample by an acceptance or a divergence, or a limit was reached.
-  bool refutes_failures(std::size_t p, std::size_t begin, std::size_t end) {
+  bool refutes_failures(std::size_t p) {
     using Kind = typename Counterexample<S>::Kind;
     const Pair pair = pairs_[p];
     offered_.clear();
-    for (std::size_t i = begin; i < end; ++i) offered_.push_back(successors_[i].label);
+    for (const Edge& edge : edges_) offered_.push_back(edge.label);
     std::ranges::sort(offered_);
     const bool is_stable = offered_.empty() || offered_.front() != tau;
     if (is_stable) {
@@ -269,7 +284,7 @@ class RefinementSearch {
   // A depth-first search that remembers.
   bool diverges(State start) {
     if (divergence_of(start) != Divergence::unknown) return divergence_of(start) == Divergence::yes;
-    if (!enter(start)) return false;
+    enter(start, edges_);
     while (!path_.empty()) {
       if (tau_targets_.size() == path_.back().first_target) {
         divergence_[path_.back().state.value] = Divergence::no;
@@ -282,7 +297,8 @@ class RefinementSearch {
         case Divergence::no:
           break;
         case Divergence::unknown:
-          if (!enter(target)) return false;
+          if (!compute_row(target)) return false;
+          enter(target, rows_[row_of_[target.value]]);
           break;
         case Divergence::open:
         case Divergence::yes:
@@ -299,26 +315,47 @@ class RefinementSearch {
     return state.value < divergence_.size() ? divergence_[state.value] : Divergence::unknown;
   }
 
-  // Puts a state on the path, with its successors by τ. False if they cannot be computed.
-  bool enter(State state) {
-    if (!is_within_budget()) return false;
-    tau_successors_.clear();
-    result_.failed = !system_.successors(states_[state.value], tau_successors_);
-    if (result_.failed) return false;
+  // Puts a state on the path.
+  void enter(State state, std::span<const Edge> edges) {
     path_.push_back({state, tau_targets_.size()});
-    for (Transition<S>& transition : tau_successors_) {
-      if (transition.label != tau) continue;
-      State target;
-      const std::uint64_t hash = system_.state_hash(transition.target);
-      if (!number(std::move(transition.target), hash, target)) return false;
-      tau_targets_.push_back(target);
+    for (const Edge& edge : edges) {
+      if (edge.label == tau) tau_targets_.push_back(edge.target);
     }
     if (divergence_.size() < states_.size()) {
       divergence_.resize(states_.size(), Divergence::unknown);
     }
     divergence_[state.value] = Divergence::open;
+  }
+
+  bool has_row(State state) const {
+    return state.value < row_of_.size() && row_of_[state.value] != no_row;
+  }
+
+  // What is computed here before its state is visited is kept for the visit.
+  bool compute_row(State state) {
+    if (!is_within_budget()) return false;
+    ahead_.clear();
+    result_.failed = !system_.successors(states_[state.value], ahead_);
+    if (result_.failed) return false;
+    hashes_ahead_.clear();
+    for (const Transition<S>& transition : ahead_) {
+      hashes_ahead_.push_back(system_.state_hash(transition.target));
+      states_.prefetch_slot(hashes_ahead_.back());
+    }
+    for (const std::uint64_t hash : hashes_ahead_) states_.prefetch_state(hash);
+    row_ahead_.clear();
+    for (std::size_t i = 0; i < ahead_.size(); ++i) {
+      State target;
+      if (!number(std::move(ahead_[i].target), hashes_ahead_[i], target)) return false;
+      row_ahead_.push_back({ahead_[i].label, target});
+    }
+    if (row_of_.size() < states_.size()) row_of_.resize(states_.size(), no_row);
+    row_of_[state.value] = static_cast<std::uint32_t>(rows_.size());
+    rows_.add(row_ahead_);
     return true;
   }
+
+  static constexpr std::uint32_t no_row = State::none_value;
 
   System& system_;
   const Specification& specification_;
@@ -336,13 +373,19 @@ class RefinementSearch {
   std::vector<Transition<S>> successors_;  // of the pairs in work
   std::vector<std::size_t> row_ends_;      // where those of each end
   std::vector<std::uint64_t> hashes_;      // of the successors
-  std::vector<State> nodes_;               // that the successors of the pair in work lead to
+  std::vector<Edge> row_;                  // of the pair in work, if it was not known
+  std::span<const Edge> edges_;            // of the pair in work
+  std::vector<State> nodes_;               // that these lead to
   std::vector<Label> offered_;             // by the pair in work
 
   std::vector<Divergence> divergence_;  // by state
   std::vector<Step> path_;
   std::vector<State> tau_targets_;
-  std::vector<Transition<S>> tau_successors_;
+  Runs<Edge> rows_;                    // of states that a search has passed
+  std::vector<std::uint32_t> row_of_;  // by state
+  std::vector<Transition<S>> ahead_;   // successors of the state in work of a search
+  std::vector<std::uint64_t> hashes_ahead_;
+  std::vector<Edge> row_ahead_;
 
   double last_report_ = 0;
   RefineResult<S> result_;

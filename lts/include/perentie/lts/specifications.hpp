@@ -7,6 +7,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,9 +21,24 @@ namespace perentie::lts {
 /// The normal form must outlive it, and has acceptances unless only traces are compared.
 class NormalSpecification {
  public:
-  explicit NormalSpecification(const NormalLts& normal) : normal_(&normal) {}
+  explicit NormalSpecification(const NormalLts& normal) : normal_(&normal) {
+    const std::uint64_t cells =
+        std::uint64_t{normal.lts.state_count()} * normal.lts.label_names().size();
+    if (cells > max_cells) return;
+    label_count_ = normal.lts.label_names().size();
+    table_.resize(cells);
+    for (std::uint32_t node = 0; node < normal.lts.state_count(); ++node) {
+      for (const Edge& edge : normal.lts.edges(State{node})) {
+        table_[node * label_count_ + edge.label.value] = edge.target;
+      }
+    }
+  }
 
   std::optional<State> next(State node, Label label) const {
+    if (label.value < label_count_) {
+      const State target = table_[node.value * label_count_ + label.value];
+      return target ? std::optional(target) : std::nullopt;
+    }
     const auto edges = normal_->lts.edges(node, label);
     return edges.empty() ? std::nullopt : std::optional(edges.front().target);
   }
@@ -33,18 +50,22 @@ class NormalSpecification {
   bool allows_divergence(State node) const { return normal_->divergent[node.value]; }
 
  private:
+  static constexpr std::uint64_t max_cells = 1U << 22U;
+
   const NormalLts* normal_;
+  // Successors by node and label, where these are not too many. Labels that came later are looked
+  // up, and not found.
+  std::size_t label_count_ = 0;
+  std::vector<State> table_;
 };
 
 /// Determinism as a refinement: what is possible after a trace must not be refused after it, and
 /// nothing may diverge (5.3.6). The normal form is that of the implementation itself.
 class DeterministicSpecification {
  public:
-  explicit DeterministicSpecification(const NormalLts& normal) : normal_(&normal) {}
+  explicit DeterministicSpecification(const NormalLts& normal) : normal_(&normal), edges_(normal) {}
 
-  std::optional<State> next(State node, Label label) const {
-    return NormalSpecification(*normal_).next(node, label);
-  }
+  std::optional<State> next(State node, Label label) const { return edges_.next(node, label); }
   bool accepts(State node, std::span<const Label> offered) const {
     return std::ranges::all_of(normal_->lts.edges(node), [&](const Edge& edge) {
       return std::ranges::binary_search(offered, edge.label);
@@ -54,6 +75,7 @@ class DeterministicSpecification {
 
  private:
   const NormalLts* normal_;
+  NormalSpecification edges_;
 };
 
 /// Deadlock freedom: every stable state offers something; termination is a deadlock (5.3.1, 5.3.2).

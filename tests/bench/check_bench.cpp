@@ -1,0 +1,128 @@
+// What checks cost beside plain exploration of the same implementation: philosophers, visible and
+// hidden, against specifications that they refine, in each model.
+//
+// Each row measures both in turn and reports the ratio of the medians.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "perentie/base/source.hpp"
+#include "perentie/lts/count.hpp"
+#include "perentie/semantics/check.hpp"
+#include "perentie/semantics/process_system.hpp"
+#include "perentie/semantics/script.hpp"
+
+namespace perentie::semantics {
+namespace {
+
+const char* const philosophers = "corpus/philosophers/philosophers.csp";
+
+// Specifications that the systems of the file refine, and deterministic counters of n states.
+const char* const specifications = R"(
+ANY(A) = |~| x : A @ x -> ANY(A)
+ANY_OR_STOP(A) = STOP |~| ANY_OR_STOP_THEN(A)
+ANY_OR_STOP_THEN(A) = |~| x : A @ x -> ANY_OR_STOP(A)
+TABLE_EVENTS = {| sits, eats, getsup, picks, putsdown |}
+COUNTERS = ||| i : {0..5} @ COUNTER_OF(i, 0)
+channel step : {0..5}.{0..9}
+COUNTER_OF(i, v) = step.i.v -> COUNTER_OF(i, (v + 1) % 10)
+)";
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  return values[values.size() / 2];
+}
+
+struct Loaded {
+  base::SourceMap sources;
+  base::Diagnostics diagnostics;
+  std::unique_ptr<Script> script;
+
+  explicit Loaded(const std::string& assertion) {
+    const std::string text =
+        *base::read_file(philosophers).text + specifications + "assert " + assertion + "\n";
+    script = Script::load(*sources.add(philosophers, text), sources, diagnostics);
+  }
+};
+
+// The time to count the states of a process.
+double explore(const std::string& process, std::uint64_t& states) {
+  Loaded loaded(process + " :[deadlock free]");
+  const auto begin = std::chrono::steady_clock::now();
+  const auto term = loaded.script->process(process, loaded.diagnostics);
+  const lts::Count found =
+      with_process_system(*loaded.script, *term, {}, loaded.diagnostics,
+                          [](auto& system, const lts::ExploreOptions& options) {
+                            return lts::count(system, options);
+                          });
+  states = found.states;
+  return seconds_since(begin);
+}
+
+void check(benchmark::State& state, std::string assertion, std::string process, bool holds) {
+  for (std::string* text : {&assertion, &process}) {
+    for (std::size_t at; (at = text->find("{n}")) != std::string::npos;) {
+      text->replace(at, 3, std::to_string(state.range(0)));
+    }
+  }
+  std::vector<double> explorations;
+  std::vector<double> checks;
+  std::uint64_t states = 0;
+  CheckResult result{.outcome = CheckResult::Outcome::error};
+  for (auto _ : state) {
+    explorations.push_back(explore(process, states));
+    Loaded loaded(assertion);
+    if (!loaded.script) {
+      state.SkipWithError(base::render_all(loaded.diagnostics, loaded.sources).c_str());
+      return;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    result = semantics::check(*loaded.script, assertions_of(loaded.script->tree()).front(), {},
+                              loaded.diagnostics);
+    checks.push_back(seconds_since(begin));
+  }
+  if ((result.outcome == CheckResult::Outcome::holds) != holds) {
+    state.SkipWithError("another outcome was expected");
+    return;
+  }
+  state.counters["states"] = static_cast<double>(states);
+  state.counters["pairs"] = static_cast<double>(result.counts.states);
+  state.counters["explore_s"] = median(explorations);
+  state.counters["check_s"] = median(checks);
+  state.counters["ratio"] = median(checks) / median(explorations);
+}
+
+#define PERENTIE_CHECK_BENCH(name, ...) \
+  BENCHMARK_CAPTURE(check, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)->Iterations(5)
+
+PERENTIE_CHECK_BENCH(traces, "ANY(TABLE_EVENTS) [T= SYSTEM({n})", "SYSTEM({n})", true)
+    ->DenseRange(6, 8);
+PERENTIE_CHECK_BENCH(failures, "ANY_OR_STOP(TABLE_EVENTS) [F= SYSTEM({n})", "SYSTEM({n})", true)
+    ->DenseRange(6, 8);
+PERENTIE_CHECK_BENCH(failures_divergences, "ANY_OR_STOP(TABLE_EVENTS) [FD= SYSTEM({n})",
+                     "SYSTEM({n})", true)
+    ->DenseRange(6, 8);
+PERENTIE_CHECK_BENCH(hidden_traces, "ANY({|eats|}) [T= MEALS({n})", "MEALS({n})", true)
+    ->DenseRange(6, 8);
+PERENTIE_CHECK_BENCH(hidden_failures, "ANY_OR_STOP({|eats|}) [F= MEALS({n})", "MEALS({n})", true)
+    ->DenseRange(6, 8);
+PERENTIE_CHECK_BENCH(hidden_failures_divergences, "ANY_OR_STOP({|eats|}) [FD= MEALS({n})",
+                     "MEALS({n})", true)
+    ->DenseRange(6, 8);
+PERENTIE_CHECK_BENCH(butler_deadlock_free, "WITH_BUTLER({n}) :[deadlock free]", "WITH_BUTLER({n})",
+                     true)
+    ->DenseRange(6, 8);
+PERENTIE_CHECK_BENCH(determinism, "COUNTERS :[deterministic]", "COUNTERS", true)->Arg(0);
+
+}  // namespace
+}  // namespace perentie::semantics
+
+BENCHMARK_MAIN();
