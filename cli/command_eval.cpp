@@ -14,6 +14,7 @@ struct Options {
   std::vector<std::string> expressions;
   std::vector<std::string> processes;
   std::vector<std::string> typed;
+  bool call_stack = false;
   BudgetOptions budget;
 };
 
@@ -35,6 +36,7 @@ ExitCode evaluate(const Options& options, Console& console) {
   const auto script = load_script(options.file, input, console, code);
   if (script == nullptr) return code;
   script->set_limits(options.budget.limits());
+  script->show_calls(options.call_stack);
   code = ExitCode::ok;
   const auto answer = [&](const std::optional<std::string>& text) {
     console.print(input.diagnostics, input.sources);
@@ -73,6 +75,8 @@ Command add_eval(CLI::App& program) {
       ->type_name("EXPR");
   app->add_option("-t,--type", options->typed, "An expression whose type is to be shown")
       ->type_name("EXPR");
+  app->add_flag("--call-stack", options->call_stack,
+                "With errors, show the calls that led to them");
   options->budget.add_to(*app);
   app->footer(
       "Example:\n"

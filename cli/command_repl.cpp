@@ -19,6 +19,7 @@ namespace {
 struct Options {
   std::string file;
   bool no_history = false;
+  bool call_stack = false;
   BudgetOptions budget;
 };
 
@@ -83,7 +84,7 @@ void talk(Repl& repl, const Options& options) {
 }
 
 ExitCode converse(const Options& options, Console& console) {
-  Repl repl(options.budget, console);
+  Repl repl(options.budget, options.call_stack, console);
   const bool loaded = options.file.empty() || repl.load(options.file);
   if (isatty(STDIN_FILENO) != 0) {
     console.note("`:help` lists the commands; Ctrl-D leaves");
@@ -105,6 +106,8 @@ Command add_repl(CLI::App& program) {
   app->add_option("FILE", options->file, "The CSPM script; none: only the built-ins");
   app->add_flag("--no-history", options->no_history,
                 "Neither read nor keep the lines of other sessions");
+  app->add_flag("--call-stack", options->call_stack,
+                "With errors, show the calls that led to them");
   options->budget.add_to(*app);
   app->footer(
       "Examples:\n"

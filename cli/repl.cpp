@@ -100,6 +100,7 @@ void Repl::open(std::unique_ptr<Session> session) {
   forget_diagnostics(session->input);
   if (!session->script) session->script = empty_script(session->input);
   session->assertions = semantics::assertions_of(session->script->tree());
+  session->script->show_calls(call_stack_);
   session_ = std::move(session);
 }
 

@@ -14,7 +14,9 @@ namespace perentie::cli {
 
 class Repl {
  public:
-  Repl(const BudgetOptions& budget, Console& console) : budget_(budget), console_(console) {}
+  /// `call_stack`: errors are shown with the calls that led to them.
+  Repl(const BudgetOptions& budget, bool call_stack, Console& console)
+      : budget_(budget), call_stack_(call_stack), console_(console) {}
 
   /// Loads a script and forgets the session's definitions. False if it has errors, which are
   /// printed; the session is then empty (CSPM reference 8.3).
@@ -49,6 +51,7 @@ class Repl {
   void report(bool answered);
 
   const BudgetOptions& budget_;
+  bool call_stack_;
   Console& console_;
   std::string path_;
   std::unique_ptr<Session> session_;

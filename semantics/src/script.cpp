@@ -180,6 +180,8 @@ std::unique_ptr<Script> Script::load(base::FileId root, base::SourceMap& sources
 
 void Script::set_limits(const base::Limits& limits) { impl_->machine->set_limits(limits); }
 
+void Script::show_calls(bool shown) { impl_->machine->show_calls(shown); }
+
 std::optional<base::LimitReached> Script::limit() const { return impl_->machine->limit(); }
 
 std::optional<std::string> Script::evaluate(std::string_view expression,

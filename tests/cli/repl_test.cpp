@@ -105,6 +105,12 @@ TEST(ReplTest, WhatOnlyAScriptCanHoldIsSaid) {
   }
 }
 
+TEST(ReplTest, ErrorsCanShowTheirCalls) {
+  const std::string lines = "let f(x) = 1 / x\n1 + f(0)\n";
+  EXPECT_EQ(repl(lines).errors.find("in `f(0)`"), std::string::npos);
+  EXPECT_NE(repl(lines, {"--call-stack"}).errors.find("in `f(0)`"), std::string::npos);
+}
+
 // CSPM reference 8.3: a failing file leaves an empty session.
 TEST(ReplTest, AScriptWithErrorsLeavesAnEmptySession) {
   const TemporaryFolder folder;

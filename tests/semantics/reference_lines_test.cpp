@@ -6,6 +6,7 @@
 // comment that says `reference 2.3.4`, or several numbers with commas between them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -34,8 +35,8 @@ std::map<std::string, std::string> lines_of_the_reference() {
   std::string row;
   std::getline(table, row);  // the heading
   while (std::getline(table, row)) {
-    const std::size_t tab = row.find('\t');
-    lines.emplace(row.substr(0, tab), row.substr(tab + 1));
+    const std::size_t tab = std::min(row.find('\t'), row.size());
+    lines.emplace(row.substr(0, tab), row.substr(std::min(tab + 1, row.size())));
   }
   return lines;
 }

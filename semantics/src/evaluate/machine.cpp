@@ -264,7 +264,8 @@ std::optional<base::Span> Machine::origin(ProcId term) const {
 }
 
 void Machine::report(const EvaluationFailure& failure) {
-  diagnostics_->report(*failure.code, failure_span(), failure.message);
+  auto& report = diagnostics_->report(*failure.code, failure_span(), failure.message);
+  if (shows_calls_) report.notes = call_stack();
 }
 
 // --- Operands -----------------------------------------------------------------------------------
@@ -290,20 +291,6 @@ Word Machine::settled(Word word) {
     word = (*word.as_object())[0];
   }
   return word;
-}
-
-std::string Machine::describe(Word word) {
-  if (is_canonical(word)) return brief(values_, resolution_, to_value(word));
-  switch (word.as_object()->kind) {
-    case ObjectKind::cell:
-      return "a sequence";
-    case ObjectKind::tuple:
-      return "a tuple";
-    case ObjectKind::closure:
-      return "a function";
-    default:
-      return "something not evaluated";
-  }
 }
 
 std::int64_t Machine::integer_at(std::size_t below, std::string_view operation) {

@@ -45,6 +45,8 @@ class Machine final : public FunctionNames, public CallUnfolder {
   std::optional<ProcId> unfold(ProcId call, base::Diagnostics& diagnostics) override;
 
   void set_limits(base::Limits limits) { limits_ = limits; }
+  /// Whether failures come with the calls that led to them.
+  void show_calls(bool shown) { shows_calls_ = shown; }
   std::optional<base::LimitReached> limit() const override { return limit_; }
   std::size_t memory_bytes() const;
 
@@ -138,7 +140,10 @@ class Machine final : public FunctionNames, public CallUnfolder {
   ProcId remember_origin(ProcId term);
   void checkpoint() const;
   ValueId value_at(std::size_t below) { return to_value(top(below)); }
+  // Where evaluation is (call_stack.cpp).
   std::string describe(Word word);
+  std::string call_around(Word frame);
+  std::vector<base::Note> call_stack();
   static Word settled(Word word);  // looks through evaluated thunks
 
   // --- Evaluation to normal forms (normal_forms.cpp) ---------------------------------------------
@@ -229,6 +234,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
   Address pc_ = 0;
   Word frame_;
   bool running_ = false;
+  bool shows_calls_ = false;
 
   std::vector<Word> globals_;
   base::TermTable scopes_;       // canonical scopes: {scope, parent, identity values..}

@@ -42,6 +42,8 @@ class Script {
 
   /// Bounds on every later evaluation.
   void set_limits(const base::Limits& limits);
+  /// Whether errors of later evaluations come with the calls that led to them, as notes (3.9).
+  void show_calls(bool shown);
   /// Which budget ended the last evaluation, if one did.
   std::optional<base::LimitReached> limit() const;
 
