@@ -79,7 +79,9 @@ Json json_of(const CheckedAssertion& checked, const CheckReport& report) {
   const Witness& w = *result.witness;
   Json witness{{"kind", semantics::name_of(w.kind)}, {"trace", w.trace}};
   if (!w.event.empty()) witness["event"] = w.event;
-  if (w.kind == Witness::Kind::acceptance || !w.offered.empty()) witness["offered"] = w.offered;
+  if (w.kind == Witness::Kind::acceptance || w.is_refused || !w.offered.empty()) {
+    witness["offered"] = w.offered;
+  }
   if (!w.allowed.empty()) witness["allowed"] = w.allowed;
   if (!w.state.empty()) witness["state"] = w.state;
   if (checked.explanation) {

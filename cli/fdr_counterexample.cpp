@@ -23,8 +23,8 @@ Kind kind_of_refinement(const Witness& w) {
     case Witness::Kind::acceptance:
       return {"failure", "Acceptance Counterexample"};
     case Witness::Kind::missing_event:
-      return w.offered.empty() ? Kind{"trace", "Trace Counterexample"}
-                               : Kind{"failure", "Acceptance Counterexample"};
+      return w.is_refused ? Kind{"failure", "Acceptance Counterexample"}
+                          : Kind{"trace", "Trace Counterexample"};
     default:
       return {"trace", "Trace Counterexample"};
   }
@@ -58,7 +58,11 @@ Behaviour unexplained(const Witness& w) {
       b.loop_start = b.trace.size();
       b.trace.emplace_back(lts::tau_name);
       break;
-    default:
+    case Witness::Kind::missing_event:
+      if (w.is_refused) b.kind = Behaviour::Kind::acceptance;
+      b.event.clear();
+      break;
+    case Witness::Kind::event:
       break;
   }
   return b;

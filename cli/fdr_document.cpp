@@ -65,9 +65,18 @@ class Document {
     return list;
   }
 
+  // With the word `print` before the expression, which is all that the span has.
+  base::Span statement_of(const semantics::ScriptPrint& print) const {
+    const std::string_view line = report_.sources.line_at(print.span.begin);
+    const std::size_t word = line.find("print");
+    const std::size_t expression = line.find(print.text, word == line.npos ? 0 : word);
+    if (word == line.npos || expression == line.npos) return print.span;
+    return {print.span.begin - static_cast<base::Offset>(expression - word), print.span.end};
+  }
+
   Json print(const PrintedValue& printed) const {
     return {{"print_statement", printed.print->text},
-            {"location", fdr_location(printed.print->span, report_.sources)},
+            {"location", fdr_location(statement_of(*printed.print), report_.sources)},
             {"errors", fdr_errors(printed, report_.sources)},
             {"result", printed.value.value_or("")}};
   }

@@ -30,9 +30,9 @@ std::string behaviour_of(const Witness& w) {
       return fmt::format("it may perform {} and may refuse it, offering only {}", w.event,
                          set_of(w.offered));
     case Witness::Kind::missing_event:
-      return w.offered.empty()
-                 ? fmt::format("it cannot perform {}", w.event)
-                 : fmt::format("it may refuse {}, offering only {}", w.event, set_of(w.offered));
+      return w.is_refused
+                 ? fmt::format("it may refuse {}, offering only {}", w.event, set_of(w.offered))
+                 : fmt::format("it cannot perform {}", w.event);
   }
   return {};
 }

@@ -250,6 +250,7 @@ class Checker {
         for (const lts::AcceptanceId id : normal->acceptances->of(node)) {
           const auto offered = normal->acceptances->labels(id);
           if (std::ranges::binary_search(offered, *label)) continue;
+          missing.is_refused = true;
           missing.offered = words(offered);
           return refute(std::move(missing));
         }

@@ -71,7 +71,7 @@ class Explainer {
     std::optional<TauLoop> loop;
     std::vector<std::string> offered = witness_.offered;
     std::ranges::sort(offered);
-    const bool needs_acceptance = witness_.kind != Kind::missing_event || !witness_.offered.empty();
+    const bool needs_acceptance = witness_.kind != Kind::missing_event || witness_.is_refused;
     search.ends_well = [&](ProcId state) {
       switch (witness_.kind) {
         case Kind::event:

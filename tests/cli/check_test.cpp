@@ -1,12 +1,18 @@
 // perentie check: outcomes, counterexamples in words and as JSON, exit codes.
-#include <gtest/gtest.h>
+#include <regex>
+#include <sstream>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <boost/property_tree/xml_parser.hpp>
 #include <nlohmann/json.hpp>
 
 #include "run_perentie.hpp"
 
 namespace perentie::test {
 namespace {
+
+using ::testing::HasSubstr;
 
 Outcome check(const std::string& script, const std::vector<std::string>& options = {}) {
   const TemporaryFolder folder;
@@ -91,6 +97,98 @@ TEST(CheckTest, ExplainsAsJson) {
   EXPECT_EQ(found["trace"], nlohmann::json::array({"τ"}));
   EXPECT_EQ(found["offered"], nlohmann::json::array({"a"}));
   EXPECT_EQ(found["allowed"], nlohmann::json::array({{"a", "b"}}));
+}
+
+TEST(CheckTest, ExplainsStepsAndComponents) {
+  const std::string script =
+      "channel a, b, c\nP = a -> b -> P\nQ = b -> c -> Q\nR = c -> R\n"
+      "assert a -> STOP [T= (P [|{b}|] Q) \\ {b}\n"
+      "assert P [|{b}|] R :[deadlock free]\n"
+      "assert P [{a, b} || {c}] R :[deadlock free]\n"
+      "assert P [{a} || {b}] STOP :[deadlock free]\n"
+      "assert a -> SKIP :[deadlock free]\n"
+      "assert P \\ {a, b} :[divergence free]\n"
+      "assert a -> STOP |~| b -> STOP :[deterministic]\n";
+  const std::string steps = check(script, {"-a", "1", "--explain"}).output;
+  EXPECT_THAT(steps, HasSubstr("     1. a\n        P is now b -> P\n"
+                               "     2. τ (hidden b)\n        P is now P\n"
+                               "        Q is now c -> Q\n"))
+      << steps;
+  EXPECT_THAT(steps, HasSubstr("     P after <a, b> performs a  ["));
+  EXPECT_THAT(steps, HasSubstr("script.csp:2:1]"));
+  EXPECT_THAT(steps, HasSubstr("script.csp -a 1 --explain\n"));
+  EXPECT_EQ(check(script, {"-a", "2"}).exit_code, 0) << "R goes on without P";
+  const std::string outside = check(script, {"-a", "4", "--explain"}).output;
+  EXPECT_THAT(outside, HasSubstr("     b is offered by P, outside its alphabet\n")) << outside;
+  EXPECT_THAT(check(script, {"-a", "5", "--explain"}).output, HasSubstr("note: it ends in ✓"));
+  EXPECT_THAT(check(script, {"-a", "6", "--explain"}).output,
+              HasSubstr("again and again:\n     1. τ (hidden a)\n"));
+  EXPECT_THAT(check(script, {"-a", "7", "--explain"}).output,
+              HasSubstr("   but after <τ> it may perform b, in the state b -> STOP\n"));
+}
+
+TEST(CheckTest, SaysWhoRefuses) {
+  const std::string script =
+      "channel a, b\nP = a -> P\nQ = b -> Q\nassert P [|{a, b}|] Q :[deadlock free]";
+  const std::string text = check(script, {"--explain"}).output;
+  EXPECT_THAT(text, HasSubstr("     a is offered by P, refused by Q\n"
+                              "     b is offered by Q, refused by P\n"));
+  const auto json = nlohmann::json::parse(check(script, {"--explain", "--format", "json"}).output);
+  EXPECT_EQ(json["assertions"][0]["counterexample"]["explanation"]["blocked"][0],
+            nlohmann::json::parse(R"({"event":"a","offered_by":"P","refused_by":["Q"]})"));
+}
+
+std::string without_times(const std::string& text) {
+  static const std::regex time(R"(\d+\.\d\d s\b)");
+  return std::regex_replace(text, time, "");
+}
+
+TEST(CheckTest, AnyNumberOfWorkersGivesTheSame) {
+  const auto with = [](const std::string& jobs) {
+    return without_times(
+        perentie({"check", "corpus/check/forms.csp", "--explain", "-j", jobs}).output);
+  };
+  const std::string one = with("1");
+  EXPECT_EQ(one, with("2"));
+  EXPECT_EQ(one, with("7"));
+  EXPECT_THAT(one, HasSubstr("\n20. "));
+}
+
+TEST(CheckTest, CasesForJUnit) {
+  std::istringstream text(
+      check(std::string(two) + "assert P [V= P\n", {"--format", "junit"}).output);
+  boost::property_tree::ptree tree;
+  boost::property_tree::read_xml(text, tree);
+  const auto& suite = tree.get_child("testsuites.testsuite");
+  EXPECT_EQ(suite.get<int>("<xmlattr>.tests"), 3);
+  EXPECT_EQ(suite.get<int>("<xmlattr>.failures"), 1);
+  EXPECT_EQ(suite.get<int>("<xmlattr>.errors"), 1);
+  EXPECT_EQ(suite.count("testcase"), 3U);
+}
+
+TEST(CheckTest, AScriptWithErrorsIsACaseForJUnit) {
+  const Outcome outcome = check("x =", {"--format", "junit"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output, HasSubstr("tests=\"1\" failures=\"0\" errors=\"1\""));
+}
+
+TEST(CheckTest, ResultsForSarif) {
+  const auto json = nlohmann::json::parse(check(two, {"--format", "sarif"}).output);
+  EXPECT_EQ(json["version"], "2.1.0");
+  const auto& results = json["runs"][0]["results"];
+  ASSERT_EQ(results.size(), 1U) << "what holds is no result";
+  EXPECT_EQ(results[0]["ruleId"], "assertion-fails");
+  const auto& region = results[0]["locations"][0]["physicalLocation"]["region"];
+  EXPECT_EQ(region["startLine"], 4);
+  EXPECT_EQ(results[0]["codeFlows"][0]["threadFlows"][0]["locations"].size(), 2U);
+  const auto broken = nlohmann::json::parse(check("x =", {"--format", "sarif"}).output);
+  EXPECT_EQ(broken["runs"][0]["results"][0]["level"], "error");
+}
+
+TEST(CheckTest, ATableForMarkdown) {
+  const std::string text = check(two, {"--format", "markdown"}).output;
+  EXPECT_THAT(text, HasSubstr("| 2 | 4 | a -> STOP \\[T= P | fails | 2 | 3 |\n")) << text;
+  EXPECT_THAT(text, HasSubstr("<details><summary>Assertion 2</summary>"));
 }
 
 }  // namespace

@@ -106,5 +106,33 @@ TEST(LtsTest, ErrorsOfTheModelAndOfFiles) {
   EXPECT_EQ(perentie({"lts", rover, "-p", "STOP", "-o", "/dev/full"}).exit_code, 5);
 }
 
+TEST(LtsTest, StatsSayWhatTheProcessIsMadeOf) {
+  TemporaryFolder folder;
+  const std::string model = folder.file("m.csp", R"(
+channel a, b
+P = a -> a -> P
+Q = b -> Q
+R = (P ||| SKIP) ; R
+)");
+  const Outcome plain = perentie({"-q", "lts", model, "-p", "P ||| P ||| Q", "--stats"});
+  EXPECT_EQ(plain.exit_code, 0);
+  EXPECT_EQ(plain.output,
+            "machine: compiled, 3 rules, 8 bytes a state\n"
+            "leaves: 3, 2 different\n"
+            "  2 x P: 2 states, 2 transitions\n"
+            "  1 x Q: 1 states, 1 transitions\n"
+            "whole: 4 states, 12 transitions\n");
+  const std::string file = (folder.path() / "out.aut").string();
+  const Outcome small = perentie({"-q", "lts", model, "-p", "P ||| P ||| Q", "--stats",
+                                  "--compress-leaves", "sbisim", "-o", file});
+  EXPECT_THAT(small.output, HasSubstr("P: 2 states, 2 transitions; compressed: 1 states, 1 "));
+  EXPECT_THAT(small.output, HasSubstr("whole: 1 states, 2 transitions\n"));
+  EXPECT_EQ(read_text(file), "des (0,2,1)\n(0,\"a\",0)\n(0,\"b\",0)\n");
+  EXPECT_THAT(perentie({"lts", model, "-p", "R", "--stats"}).output,
+              HasSubstr("machine: made as it is explored, 1 formats, "));
+  const std::string graph = folder.file("g.aut", "des (0,0,1)\n");
+  EXPECT_EQ(perentie({"lts", graph, "--stats"}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace perentie::test

@@ -35,6 +35,7 @@ struct Witness {
   std::vector<std::string> trace;  ///< with τ
   std::string event = {};
   std::vector<std::string> offered = {};
+  bool is_refused = false;  ///< of a missing event: it may be refused, and only `offered` offered
   /// What the specification allows after the trace: its events, or each of its minimal acceptances.
   std::vector<std::vector<std::string>> allowed = {};
   std::string state = {};  ///< the process after the trace
