@@ -135,8 +135,47 @@ TEST(SharedModelsTest, EvaluatesTheTestsOfTheFrontEnd) {
   EXPECT_GE(count, 100U);
 }
 
-// --- The type checker's tests of that front end
-// ----------------------------------------------------
+// Cases of CASES.txt whose names begin so.
+std::vector<fs::path> cases_of(const fs::path& data, const std::string& prefix) {
+  std::vector<fs::path> found;
+  std::ifstream cases(data / "libcspm-tests/CASES.txt");
+  for (std::string line; std::getline(cases, line);) {
+    if (line.starts_with(prefix)) found.push_back(data / "libcspm-tests" / line);
+  }
+  return found;
+}
+
+// Each test of a failing script ends with an error.
+TEST(SharedModelsTest, RefusesToEvaluateWhatTheFrontEndRefuses) {
+  PERENTIE_SHARED_DATA_OR_SKIP(data);
+  std::size_t count = 0;
+  const std::regex test(R"((^|\n)((?:test|procTest)\w*)\s*=)");
+  for (const fs::path& file : cases_of(data, "evaluator/should_fail")) {
+    SCOPED_TRACE(file.filename().string());
+    const auto script = TestScript::of_file(file);
+    ASSERT_TRUE(script->loaded()) << script->messages();
+    const std::string text = base::read_file(file.generic_string()).text.value_or("");
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), test);
+         it != std::sregex_iterator(); ++it, ++count) {
+      const std::string name = (*it)[2];
+      const bool has_value = name.starts_with("test") ? script->evaluate(name).has_value()
+                                                      : script->definitions(name).has_value();
+      // Fields that mix constructors are accepted: its test is false, but no error (decision 8).
+      EXPECT_EQ(has_value, file.filename() == "non_rect.csp") << name;
+      EXPECT_EQ(script->diagnostics().has_errors(), !has_value) << name;
+    }
+  }
+  EXPECT_GE(count, 10U);
+}
+
+TEST(SharedModelsTest, RefusesToLoadWhatTheFrontEndCannotTranslate) {
+  PERENTIE_SHARED_DATA_OR_SKIP(data);
+  const auto files = cases_of(data, "desugar/should_fail");
+  EXPECT_FALSE(files.empty());
+  for (const fs::path& file : files) EXPECT_FALSE(TestScript::of_file(file)->loaded()) << file;
+}
+
+// --- The type checker's tests of that front end -------------------------------------------------
 
 TEST(SharedModelsTest, AcceptsAndRefusesWhatTheFrontEndDoes) {
   PERENTIE_SHARED_DATA_OR_SKIP(data);

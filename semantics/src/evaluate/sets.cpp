@@ -302,9 +302,7 @@ ValueId power_set(ValueStore& values, ValueId set) {
     return over(values, ValueKind::power_set, {set});
   }
   const std::vector<ValueId> elements = elements_of(values, set, "list the subsets of");
-  if (std::size_t{1} << std::min<std::size_t>(elements.size(), 63) > max_set_elements) {
-    return over(values, ValueKind::power_set, {set});
-  }
+  if (elements.size() >= 24) return over(values, ValueKind::power_set, {set});
   // Subsets in the order of `compare`: each subset is followed by its extensions by later elements.
   std::vector<ValueId> subsets;
   std::vector<std::size_t> chosen;

@@ -25,19 +25,20 @@ base::Diagnostic& TypeChecker::Impl::report(const base::DiagnosticCode& code, Sp
   return diagnostic;
 }
 
-// The fields that `found` has to take to become what is expected; nothing if that does not help.
+// What `found` has to take to become what is expected; nothing if that does not help.
 std::string TypeChecker::Impl::missing_fields(TypeRef found, TypeRef expected) {
-  std::string fields;
+  std::vector<std::string> fields;
   found = types.find(found);
   expected = types.find(expected);
   while (types.kind(found) == TypeKind::yield) {
-    if (!fields.empty()) fields += " and the field ";
-    fields += fmt::format("`{}`", text(types.child(found, 0)));
+    fields.push_back(fmt::format("`{}`", text(types.child(found, 0))));
     found = types.find(types.child(found, 1));
   }
   const bool helps = types.kind(expected) == types.kind(found) &&
                      types[expected].datatype == types[found].datatype;
-  return helps ? fields : "";
+  if (!helps || fields.empty()) return {};
+  return fields.size() == 1 ? fmt::format("the field {} is missing", fields[0])
+                            : fmt::format("the fields {} are missing", fmt::join(fields, ", "));
 }
 
 void TypeChecker::Impl::report_clash(TypeRef expected, TypeRef found, Span span) {
@@ -53,7 +54,7 @@ void TypeChecker::Impl::report_clash(TypeRef expected, TypeRef found, Span span)
                  fmt::format("this has the type `{}`, but `{}` is needed", whole, text(expected)));
       const std::string missing = missing_fields(found, expected);
       if (!missing.empty()) {
-        diagnostic.notes.push_back({std::nullopt, fmt::format("the field {} is missing", missing)});
+        diagnostic.notes.push_back({std::nullopt, missing});
       } else if (whole != left && whole != right) {
         diagnostic.notes.push_back(
             {std::nullopt, fmt::format("`{}` and `{}` do not agree", left, right)});
