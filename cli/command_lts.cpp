@@ -29,7 +29,9 @@ struct Options {
   std::string format;
   std::string tau = "tau";
   std::string compression;
+  std::string leaf_compression = "none";
   bool normal = false;
+  bool stats = false;
   bool state_names = false;
   BudgetOptions budget;
 };
@@ -137,6 +139,36 @@ ExitCode finish(const lts::Lts& graph, const Options& options,
   return write_output(small, options, {}, console);
 }
 
+/// What the process is made of, as FDR's "machine structure" shows it.
+std::string statistics(const semantics::MachineStructure& machine, const lts::Lts& graph,
+                       const semantics::Script& script) {
+  const auto number = [](std::uint64_t n) { return base::with_thousands(n); };
+  std::string text;
+  if (machine.is_compiled) {
+    text += fmt::format("machine: compiled, {} rules, {} bytes a state\n", number(machine.rules),
+                        8 * machine.words);
+    text += fmt::format("leaves: {}, {} different\n", number(machine.leaf_kinds.size()),
+                        number(machine.leaf_sizes.size()));
+    std::vector<std::size_t> times(machine.leaf_sizes.size());
+    for (const std::uint32_t kind : machine.leaf_kinds) ++times[kind];
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const semantics::LeafSize& leaf = machine.leaf_sizes[k];
+      text += fmt::format("  {} x {}: {} states, {} transitions", times[k],
+                          script.show(leaf.process, 60), number(leaf.explored_states),
+                          number(leaf.explored_edges));
+      if (leaf.states != leaf.explored_states) {
+        text += fmt::format("; compressed: {} states, {} transitions", number(leaf.states),
+                            number(leaf.edges));
+      }
+      text += '\n';
+    }
+  } else {
+    text += fmt::format("machine: made as it is explored, {} formats, {} states of leaves\n",
+                        number(machine.formats), number(machine.leaf_states));
+  }
+  return text + fmt::format("whole: {}\n", size_of(graph));
+}
+
 bool is_aut(const std::string& path) {
   return path.size() > 4 && path.compare(path.size() - 4, 4, ".aut") == 0;
 }
@@ -148,6 +180,10 @@ ExitCode convert_aut(const Options& options, Console& console) {
   }
   if (options.state_names) {
     console.error("the states of an .aut file have no terms: --state-names has no meaning for it");
+    return ExitCode::usage;
+  }
+  if (options.stats) {
+    console.error("a graph is no machine: --stats has no meaning for an .aut file");
     return ExitCode::usage;
   }
   Input input;
@@ -173,11 +209,18 @@ ExitCode make_lts(const Options& options, Console& console) {
   const auto script = load_script(options.file, input, console, code);
   if (script == nullptr) return code;
   const base::Limits limits = options.budget.limits();
+  script->set_leaf_compression(options.leaf_compression == "sbisim"
+                                   ? semantics::LeafCompression::sbisim
+                                   : semantics::LeafCompression::none);
   const auto built = build_lts(*script, options.process, "--process", limits, input, console, code);
   if (!built) return code;
   if (built->limit) {
     console.note(size_of(built->lts) + " so far");
     return inconclusive(*built->limit, console);
+  }
+  if (options.stats) {
+    console.result(statistics(built->structure, built->lts, *script));
+    if (options.output == "-") return ExitCode::ok;
   }
   std::function<std::string(lts::State)> state_name;
   if (options.state_names) {
@@ -213,6 +256,12 @@ Command add_lts(CLI::App& program) {
       ->excludes("--compress");
   app->add_flag("--state-names", options->state_names,
                 "Write the process term of each state (dot, json and graphml)");
+  app->add_option("--compress-leaves", options->leaf_compression,
+                  "none or sbisim: what is done with the processes below the parallel operators")
+      ->check(CLI::IsMember({"none", "sbisim"}))
+      ->capture_default_str();
+  app->add_flag("--stats", options->stats,
+                "Print what the process is made of; the graph is written only with --output");
   options->budget.add_to(*app);
   app->footer(
       "Examples:\n"

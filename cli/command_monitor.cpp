@@ -199,6 +199,8 @@ ExitCode run_monitor(const Options& options, Console& console) {
   ExitCode code = ExitCode::ok;
   const auto script = load_script(task->model, input, console, code);
   if (script == nullptr) return code;
+  // Positions in the model are told by name.
+  script->set_leaf_compression(semantics::LeafCompression::none);
   const auto built =
       build_lts(*script, task->process, task->process_origin, limits, input, console, code);
   if (!built) return code;
@@ -223,8 +225,8 @@ ExitCode run_monitor(const Options& options, Console& console) {
                                   script->channel_names(), input.diagnostics);
     console.print(input.diagnostics, input.sources);
     if (!visible) return ExitCode::usage;
-    hidden = lts::hide(built->lts,
-                       monitor::labels_not_of_channels(built->lts.label_names(), *visible));
+    hidden =
+        lts::hide(built->lts, monitor::labels_not_of_channels(built->lts.label_names(), *visible));
   }
   const lts::Lts& process = hidden ? *hidden : built->lts;
   subject.states = process.state_count();

@@ -104,7 +104,7 @@ std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string
       script.process(process, input.diagnostics, origin);
   if (!initial) {
     console.print(input.diagnostics, input.sources);
-    if (const auto limit = script.limit()) return ProcessLts{unexplored(), {}, limit};
+    if (const auto limit = script.limit()) return ProcessLts{unexplored(), {}, {}, limit};
     return std::nullopt;
   }
   lts::ExploreOptions options{.limits = limits};
@@ -119,7 +119,8 @@ std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string
                     "states does",
                     compression));
   }
-  return ProcessLts{std::move(found.lts), std::move(found.term), found.limit};
+  return ProcessLts{std::move(found.lts), std::move(found.term), std::move(found.structure),
+                    found.limit};
 }
 
 }  // namespace perentie::cli

@@ -13,6 +13,7 @@
 #include "exit_codes.hpp"
 #include "perentie/base/diagnostic.hpp"
 #include "perentie/lts/lts.hpp"
+#include "perentie/semantics/machine.hpp"
 #include "perentie/semantics/script.hpp"
 
 namespace perentie::cli {
@@ -48,7 +49,8 @@ std::unique_ptr<semantics::Script> load_script(const std::string& path, Input& i
 struct ProcessLts {
   lts::Lts lts;
   std::function<semantics::ProcId(lts::State)> term;  ///< of a state
-  std::optional<base::LimitReached> limit;            ///< of exploration or evaluation
+  semantics::MachineStructure structure;
+  std::optional<base::LimitReached> limit;  ///< of exploration or evaluation
 };
 
 /// Evaluates and explores. Nothing: `code` says what to exit with, and the reason was printed. A

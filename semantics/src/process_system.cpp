@@ -23,6 +23,7 @@ ProcessExploration explore_process(Script& script, ProcId process,
         auto found = lts::explore(system, bounds);
         ProcessExploration result{.lts = std::move(found.lts),
                                   .term = {},
+                                  .structure = system.structure(),
                                   .complete = found.complete(),
                                   .failed = found.failed,
                                   .limit = found.limit ? found.limit : system.limit()};

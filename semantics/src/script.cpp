@@ -39,6 +39,7 @@ struct Script::Impl {
   std::optional<TypeChecker> types;
   std::optional<Lowering> lowering;
   std::optional<Machine> machine;
+  LeafCompression leaf_compression = LeafCompression::sbisim;
 
   bool prepare(base::Diagnostics& diagnostics);
   std::shared_ptr<const lts::LabelNames> label_names() const;
@@ -254,6 +255,17 @@ std::optional<std::string> Script::definitions(ProcId process, base::Diagnostics
   return show_definitions(impl_->machine->show_context(), process,
                           [&](ProcId call) { return impl_->machine->unfold(call, diagnostics); });
 }
+
+std::optional<std::vector<std::uint64_t>> Script::state(const CompiledMachine& machine,
+                                                        ProcId term) const {
+  return machine_state(machine, term, impl_->processes);
+}
+
+void Script::set_leaf_compression(LeafCompression compression) {
+  impl_->leaf_compression = compression;
+}
+
+LeafCompression Script::leaf_compression() const { return impl_->leaf_compression; }
 
 std::shared_ptr<const lts::LabelNames> Script::label_names() const { return impl_->label_names(); }
 

@@ -44,7 +44,7 @@ void expect_same(const std::string& process, std::size_t least_formats = 1) {
   ASSERT_TRUE(term) << base::render_all(diagnostics, script.sources());
   LazyMachine machine = script.script().lazy_machine(*term, diagnostics);
   EXPECT_TRUE(lts::count(machine).complete());
-  EXPECT_GE(machine.format_count(), least_formats);
+  EXPECT_GE(machine.structure().formats, least_formats);
 }
 
 TEST(LazyMachineTest, OperatorsThatStayInPlaceAreOneFormat) {

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "machine_support.hpp"
+#include "perentie/lts/bisimulation.hpp"
+#include "perentie/semantics/process_system.hpp"
 
 namespace perentie::semantics {
 namespace {
@@ -112,6 +114,28 @@ RC_GTEST_PROP(MachinePropertyTest, MachinesHaveTheLtsOfTheStepRules, ()) {
   RC_CLASSIFY(found.machine.has_value(), "machine");
   if (!found.machine) return;
   RC_ASSERT(same_reached(*found.steps, *found.machine));
+}
+
+RC_GTEST_PROP(MachinePropertyTest, CompressedLeavesKeepBehaviour, ()) {
+  std::string definitions = "external prioritise\nchannel a, b, c\n";
+  for (int i = 0; i < 3; ++i) {
+    definitions += "P" + std::to_string(i) + " = " + sequential(2, true) + "\n";
+  }
+  const std::string process = composed(2);
+  RC_LOG() << definitions << process;
+  TestScript script(definitions);
+  RC_ASSERT(script.loaded());
+  base::Diagnostics diagnostics;
+  const auto term = script.script().process(process, diagnostics);
+  RC_ASSERT(term);
+  const lts::ExploreOptions options{.limits = {.max_states = 1'000}};
+  const auto small = explore_process(script.script(), *term, options, diagnostics);
+  const auto exact = script.explore(process, options.limits);
+  if (!exact || !small.complete) RC_DISCARD("too large");
+  RC_CLASSIFY(small.structure.is_compiled, "machine");
+  RC_ASSERT(small.lts.state_count() <= exact->state_count());
+  RC_ASSERT(
+      isomorphic(lts::strong_bisimulation(small.lts).lts, lts::strong_bisimulation(*exact).lts));
 }
 
 // Parallels anywhere: under operators that switch, after prefixes, under names.

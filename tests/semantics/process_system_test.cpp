@@ -102,6 +102,7 @@ TEST(ProcessSystemTest, AFailingProcessIsReportedOnce) {
 TEST(ProcessSystemTest, TermsAreThoseOfTheStepRules) {
   const auto script = TestScript::of_file(test::corpus() / "philosophers/philosophers.csp");
   base::Diagnostics diagnostics;
+  script->script().set_leaf_compression(LeafCompression::none);
   const auto term = script->script().process("WITH_BUTLER(3) \\ {|sits|}", diagnostics);
   const auto found = explore_process(script->script(), *term, {}, diagnostics);
   ASSERT_TRUE(found.complete);
@@ -119,6 +120,7 @@ TEST(ProcessSystemTest, TermsAreThoseOfTheStepRules) {
 TEST(ProcessSystemTest, RefinementCountsWhatTheStepRulesCount) {
   const auto script = TestScript::of_file(test::corpus() / "philosophers/philosophers.csp");
   base::Diagnostics diagnostics;
+  script->script().set_leaf_compression(LeafCompression::none);
   for (const char* name : {"SYSTEM(3)", "SYSTEM(4)", "WITH_BUTLER(4)", "MEALS(3)"}) {
     SCOPED_TRACE(name);
     const auto term = script->script().process(name, diagnostics);

@@ -43,6 +43,11 @@ class Compiler {
     auto machine = make_tables(leaves, builder_, *rules, joins_termination_);
     if (!machine) return give_up();
     machine->root = *root;
+    for (const ProcId term : leaf_terms_) machine->leaf_kinds.push_back(leaf_kinds_.at(term.value));
+    machine->leaf_sizes = std::move(leaf_sizes_);
+    for (const auto& size : machine->leaf_sizes) {
+      machine->states_of_terms.push_back(std::move(leaf_graphs_.at(size.process.value).numbers));
+    }
     machine->label_names = parts_.label_names();
     return {std::move(machine), {}};
   }
@@ -76,6 +81,14 @@ class Compiler {
       return false;
     }
     leaf_states_ += leaf.graph->state_count();
+    LeafSize size{term, leaf.graph->state_count(), leaf.graph->edge_count(), 0, 0};
+    if (options_.leaf_compression == LeafCompression::sbisim && leaf_terms_.size() > 1) {
+      leaf.graph = compress_leaf(std::move(*leaf.graph));
+    }
+    size.states = leaf.graph->state_count();
+    size.edges = leaf.graph->edge_count();
+    leaf_kinds_.emplace(term.value, static_cast<std::uint32_t>(leaf_sizes_.size()));
+    leaf_sizes_.push_back(size);
     leaf_graphs_.emplace(term.value, std::move(*leaf.graph));
     return true;
   }
@@ -102,9 +115,11 @@ class Compiler {
   base::Diagnostics unheard_;  // what leaves report: the step rules say it again if it matters
   StepRules steps_;
   RuleBuilder builder_;
-  std::vector<ProcId> leaf_terms_;                            // in order, equal ones repeated
-  std::unordered_map<std::uint32_t, LeafGraph> leaf_graphs_;  // by term
-  std::uint64_t leaf_states_ = 0;                             // of all of them
+  std::vector<ProcId> leaf_terms_;                               // in order, equal ones repeated
+  std::unordered_map<std::uint32_t, LeafGraph> leaf_graphs_;     // by term
+  std::unordered_map<std::uint32_t, std::uint32_t> leaf_kinds_;  // by term: of leaf_sizes_
+  std::vector<LeafSize> leaf_sizes_;
+  std::uint64_t leaf_states_ = 0;  // of all of them
   bool has_large_leaves_ = false;
   bool joins_termination_ = false;
   std::uint32_t next_leaf_ = 0;
@@ -143,7 +158,52 @@ class TermMaker {
   bool has_terminated_ = false;
 };
 
+// The leaves of a term beside those of the machine's root, one after the other.
+class StateMaker {
+ public:
+  StateMaker(const CompiledMachine& machine, const ProcStore& processes)
+      : machine_(machine), processes_(processes), state_(machine.width()) {}
+
+  // False: the term is none of the machine.
+  bool add(ProcId root, ProcId term, std::uint32_t depth) {
+    if (is_leaf(processes_, root, depth)) return add_leaf(term);
+    const std::vector<ProcId> expected = processes_.operands(root);
+    const std::vector<ProcId> found = processes_.operands(term);
+    if (processes_.kind(root) != processes_.kind(term) || expected.size() != found.size()) {
+      return false;
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (!add(expected[i], found[i], depth + 1)) return false;
+    }
+    return true;
+  }
+
+  std::vector<std::uint64_t> take() && { return std::move(state_); }
+
+ private:
+  bool add_leaf(ProcId term) {
+    const auto& states = machine_.states_of_terms[machine_.leaf_kinds[next_]];
+    const CompiledMachine::Leaf& leaf = machine_.leaves[next_++];
+    const auto found = states.find(term.value);
+    if (found == states.end()) return false;
+    state_[leaf.word] |= std::uint64_t{found->second} << leaf.shift;
+    return true;
+  }
+
+  const CompiledMachine& machine_;
+  const ProcStore& processes_;
+  std::vector<std::uint64_t> state_;
+  std::size_t next_ = 0;  // leaf
+};
+
 }  // namespace
+
+std::optional<std::vector<std::uint64_t>> machine_state(const CompiledMachine& machine, ProcId term,
+                                                        const ProcStore& processes) {
+  StateMaker maker(machine, processes);
+  if (!maker.add(machine.root, term, 0)) return std::nullopt;
+  return std::move(maker).take();
+}
 
 ProcId machine_term(const CompiledMachine& machine, std::span<const std::uint64_t> state,
                     ProcStore& processes) {

@@ -7,7 +7,9 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "perentie/semantics/machine.hpp"
 #include "perentie/semantics/process.hpp"
@@ -28,7 +30,10 @@ struct MachineParts {
 MachineCompilation compile_machine(ProcId process, const MachineParts& parts,
                                    const MachineOptions& options);
 
-/// The term that a packed state stands for.
+/// The packed state of a term; nothing: it is none of the machine, or has terminated.
+std::optional<std::vector<std::uint64_t>> machine_state(const CompiledMachine& machine, ProcId term,
+                                                        const ProcStore& processes);
+/// The term that a packed state stands for; with compressed leaves one of several.
 ProcId machine_term(const CompiledMachine& machine, std::span<const std::uint64_t> state,
                     ProcStore& processes);
 

@@ -121,6 +121,8 @@ std::size_t LazyMachine::memory_bytes() const {
 
 std::optional<base::LimitReached> LazyMachine::limit() const { return impl_->rules.limit(); }
 
-std::size_t LazyMachine::format_count() const { return impl_->formats.size(); }
+MachineStructure LazyMachine::structure() const {
+  return {.formats = impl_->formats.size(), .leaf_states = impl_->moves.leaf_states()};
+}
 
 }  // namespace perentie::semantics

@@ -1,7 +1,9 @@
 #include "machine/leaf.hpp"
 
-#include <unordered_map>
+#include <algorithm>
+#include <string>
 
+#include "perentie/lts/bisimulation.hpp"
 #include "perentie/lts/memory.hpp"
 
 namespace perentie::semantics {
@@ -10,10 +12,9 @@ LeafResult explore_leaf(StepRules& rules, ProcId initial, std::uint64_t max_stat
                         const base::Budget& budget) {
   constexpr std::size_t states_between_looks = 256;
   LeafGraph graph;
-  std::unordered_map<std::uint32_t, std::uint32_t> numbers;  // of terms
   const auto number = [&](ProcId term) {
     const auto next = static_cast<std::uint32_t>(graph.states.size());
-    const auto [place, is_new] = numbers.emplace(term.value, next);
+    const auto [place, is_new] = graph.numbers.emplace(term.value, next);
     if (is_new) graph.states.push_back(term);
     return lts::State{place->second};
   };
@@ -48,6 +49,41 @@ std::vector<lts::Label> LeafGraph::labels() const {
     if (occurs[i]) found.push_back(lts::Label{i});
   }
   return found;
+}
+
+std::uint64_t LeafGraph::edge_count() const {
+  std::uint64_t count = 0;
+  for (std::uint32_t s = 0; s < state_count(); ++s) count += edges(s).size();
+  return count;
+}
+
+LeafGraph compress_leaf(LeafGraph leaf) {
+  // The names of labels do not matter to bisimulation.
+  const auto labels = leaf.labels();
+  const std::size_t label_count = labels.empty() ? 2 : std::max(labels.back().value + 1, 2U);
+  auto names = std::make_shared<lts::LabelNames>(label_count);
+  (*names)[lts::tau.value] = lts::tau_name;
+  (*names)[lts::tick.value] = lts::tick_name;
+  lts::LtsRowBuilder builder;
+  for (std::uint32_t s = 0; s < leaf.state_count(); ++s) {
+    for (const lts::Edge& edge : leaf.edges(s)) builder.add_edge(edge.label, edge.target);
+    builder.end_row();
+  }
+  const lts::Quotient quotient = lts::strong_bisimulation(
+      std::move(builder).finish(lts::State{0}, leaf.state_count(), std::move(names)));
+  if (quotient.lts.state_count() == leaf.state_count()) return leaf;
+  LeafGraph smaller;
+  smaller.states.resize(quotient.lts.state_count());
+  for (std::uint32_t s = leaf.state_count(); s-- > 0;) {
+    smaller.states[quotient.block_of[s].value] = leaf.states[s];  // in the end the first one
+  }
+  for (const auto& [term, state] : leaf.numbers) {
+    smaller.numbers.emplace(term, quotient.block_of[state].value);
+  }
+  for (std::uint32_t s = 0; s < smaller.state_count(); ++s) {
+    smaller.rows.add(quotient.lts.edges(lts::State{s}));
+  }
+  return smaller;
 }
 
 }  // namespace perentie::semantics

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "perentie/base/limits.hpp"
@@ -19,8 +20,10 @@ namespace perentie::semantics {
 /// The initial state is 0.
 struct LeafGraph {
   lts::Runs<lts::Edge> rows;   ///< by state
-  std::vector<ProcId> states;  ///< their terms
+  std::vector<ProcId> states;  ///< their terms; of a compressed leaf one of several
+  std::unordered_map<std::uint32_t, std::uint32_t> numbers;  ///< of all terms: their states
 
+  std::uint64_t edge_count() const;
   std::uint32_t state_count() const { return static_cast<std::uint32_t>(states.size()); }
   std::span<const lts::Edge> edges(std::uint32_t state) const { return rows[state]; }
   /// The labels on edges, τ and ✓ among them, ascending.
@@ -37,6 +40,9 @@ struct LeafResult {
   std::optional<LeafGraph> graph;
   LeafFailure failure = LeafFailure::other;
 };
+
+/// The quotient by strong bisimulation; the leaf itself if that is not smaller.
+LeafGraph compress_leaf(LeafGraph leaf);
 
 LeafResult explore_leaf(StepRules& rules, ProcId initial, std::uint64_t max_states,
                         const base::Budget& budget);

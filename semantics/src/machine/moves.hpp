@@ -42,6 +42,8 @@ class MoveRules {
     return std::span<const LeafChange>(changes_).subspan(move.first, move.count);
   }
   std::size_t memory_bytes() const;
+  /// The leaf terms whose steps are known.
+  std::size_t leaf_states() const { return known_steps_[0].size() + known_steps_[1].size(); }
 
  private:
   using Operand = FormatNode::Operand;

@@ -17,6 +17,7 @@
 #include "perentie/base/hash.hpp"
 #include "perentie/base/limits.hpp"
 #include "perentie/lts/transition_system.hpp"
+#include "perentie/semantics/machine.hpp"
 #include "perentie/semantics/process.hpp"
 
 namespace perentie::semantics {
@@ -44,8 +45,8 @@ class LazyMachine {
   ProcId term(State state) const;
   /// Which budget ended `successors`, if one did.
   std::optional<base::LimitReached> limit() const;
-  /// The formats met so far that have more than one leaf.
-  std::size_t format_count() const;
+  /// What was met so far.
+  MachineStructure structure() const;
 
  private:
   struct Impl;

@@ -3,9 +3,9 @@
 // The parallel operators, hiding and renaming above the recursion of a process stay in place while
 // it runs, so they are compiled away: a state is one state for each leaf, packed into a few words,
 // and a rule says which leaves perform which events together and what the whole then performs.
-// Everything else is a leaf, explored by the step rules. Reachable states and transitions are those
-// of the step rules, repetitions included, in another order. FDR calls this a supercombinator (CSPM
-// reference 6.1; Gibson-Robinson et al., FDR3, TACAS 2014).
+// Everything else is a leaf, explored by the step rules. Unless leaves are compressed, reachable
+// states and transitions are those of the step rules, repetitions included, in another order. FDR
+// calls this a supercombinator (CSPM reference 6.1; Gibson-Robinson et al., FDR3, TACAS 2014).
 #pragma once
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,12 @@
 
 namespace perentie::semantics {
 
+/// What is done with each leaf before it is part of a machine (CSPM reference 4.7.10).
+enum class LeafCompression : std::uint8_t {
+  none,
+  sbisim,  ///< the quotient by strong bisimulation, FDR's default
+};
+
 struct MachineOptions {
   /// Time, cancellation and memory; `max_states` does not matter.
   base::Limits limits = {};
@@ -35,6 +42,28 @@ struct MachineOptions {
   std::size_t max_rules = 1'000'000;
   /// The same for processes with fewer leaves, which a machine does not make faster.
   std::size_t min_leaves = 2;
+  /// Of machines with at least two leaves.
+  LeafCompression leaf_compression = LeafCompression::none;
+};
+
+/// A process that is a leaf, maybe several times.
+struct LeafSize {
+  ProcId process;
+  std::uint64_t explored_states, explored_edges;
+  std::uint64_t states, edges;  ///< after compression
+};
+
+/// How a process became a machine, for statistics.
+struct MachineStructure {
+  bool is_compiled = false;  ///< otherwise it is lazy
+  std::size_t formats = 1;   ///< that have several leaves
+  /// Of a compiled machine.
+  std::vector<LeafSize> leaf_sizes = {};
+  std::vector<std::uint32_t> leaf_kinds = {};  ///< by leaf: of `leaf_sizes`
+  std::size_t rules = 0;
+  std::size_t words = 0;  ///< of 64 bits, of a state
+  /// Of a lazy machine: the states of leaves whose transitions were computed.
+  std::size_t leaf_states = 0;
 };
 
 /// The tables of a machine, laid out for the computation of successors.
@@ -76,6 +105,10 @@ struct CompiledMachine {
   std::vector<Follow> follows;  ///< of each row, by port
   std::vector<Rule> rules;
   std::vector<Partner> partners;
+  std::vector<LeafSize> leaf_sizes;
+  std::vector<std::uint32_t> leaf_kinds;  ///< by leaf: of `leaf_sizes`
+  /// By kind: of a term, the state that it is.
+  std::vector<std::unordered_map<std::uint32_t, std::uint32_t>> states_of_terms;
   std::vector<std::uint64_t> initial;  ///< packed
   ProcId root;                         ///< the initial term
   std::vector<ProcId> row_terms;       ///< by row; none: terminated

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "perentie/base/limits.hpp"
 #include "perentie/lts/explore.hpp"
@@ -36,8 +37,40 @@ class MachineProcess : public MachineSystem<words> {
 
   ProcId term(const State& state) const { return script_->term(*machine_, state); }
   std::optional<base::LimitReached> limit() const { return std::nullopt; }
+  MachineStructure structure() const {
+    return {.is_compiled = true,
+            .leaf_sizes = machine_->leaf_sizes,
+            .leaf_kinds = machine_->leaf_kinds,
+            .rules = machine_->rules.size(),
+            .words = machine_->width()};
+  }
+
+  /// A run of the step rules that the machine takes for this one. States of compressed leaves stand
+  /// for several terms, so their terms alone are not always a run.
+  std::vector<ProcId> terms_of_run(std::span<const State> states,
+                                   std::span<const lts::Label> trace) const {
+    base::Diagnostics unheard;  // the machine has computed these steps before
+    TermSystem terms = script_->terms(machine_->root, unheard);
+    std::vector<ProcId> run{terms.initial()};
+    std::vector<lts::Transition<ProcId>> steps;
+    for (std::size_t i = 0; i < trace.size(); ++i) {
+      steps.clear();
+      terms.successors(run.back(), steps);
+      const auto step = std::find_if(steps.begin(), steps.end(), [&](const auto& s) {
+        return s.label == trace[i] && (s.label == lts::tick || is_state(s.target, states[i + 1]));
+      });
+      PERENTIE_CHECK(step != steps.end(), "a machine does what the step rules do not");
+      run.push_back(step->target);
+    }
+    return run;
+  }
 
  private:
+  bool is_state(ProcId term, const State& state) const {
+    const auto words_of_term = script_->state(*machine_, term);
+    return words_of_term && std::equal(words_of_term->begin(), words_of_term->end(), state.begin());
+  }
+
   Script* script_;
   std::shared_ptr<const CompiledMachine> machine_;
 };
@@ -80,7 +113,9 @@ auto with_process_system(Script& script, ProcId process, const lts::ExploreOptio
   };
   for (const ProcessTrial& trial : trials) {
     MachineCompilation compilation =
-        script.machine(process, {.limits = rest(any).limits, .max_leaf_states = trial.leaf_states});
+        script.machine(process, {.limits = rest(any).limits,
+                                 .max_leaf_states = trial.leaf_states,
+                                 .leaf_compression = script.leaf_compression()});
     if (compilation.machine) {
       const auto machine = std::make_shared<const CompiledMachine>(std::move(*compilation.machine));
       return with_width(*machine, [&](auto width) {
@@ -101,6 +136,7 @@ auto with_process_system(Script& script, ProcId process, const lts::ExploreOptio
 struct ProcessExploration {
   lts::Lts lts;
   std::function<ProcId(lts::State)> term;  ///< of a state; needs the script
+  MachineStructure structure;
   bool complete;
   bool failed;  ///< some transitions could not be computed; the reason was reported
   std::optional<base::LimitReached> limit;
@@ -134,7 +170,11 @@ lts::RefineResult<ProcId> refine_process(Script& script, ProcId process,
                                           from.event,
                                           std::move(from.offered),
                                           from.node});
-          for (const auto& state : from.states) to.states.push_back(system.term(state));
+          if constexpr (requires { system.terms_of_run(from.states, to.trace); }) {
+            to.states = system.terms_of_run(from.states, to.trace);
+          } else {
+            for (const auto& state : from.states) to.states.push_back(system.term(state));
+          }
         }
         return result;
       });

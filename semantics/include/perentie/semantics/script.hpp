@@ -28,6 +28,7 @@ namespace perentie::semantics {
 class LazyMachine;
 class TermSystem;
 struct CompiledMachine;
+enum class LeafCompression : std::uint8_t;
 struct MachineCompilation;
 struct MachineOptions;
 
@@ -82,6 +83,12 @@ class Script {
   MachineCompilation machine(ProcId process, const MachineOptions& options);
   /// The term that a packed state of such a machine stands for.
   ProcId term(const CompiledMachine& machine, std::span<const std::uint64_t> state);
+  /// The packed state of a term. Nothing: it is none of the machine, or has terminated.
+  std::optional<std::vector<std::uint64_t>> state(const CompiledMachine& machine, ProcId term) const;
+  /// What is done with the leaves of machines that checks and graphs are made of. As in FDR, that
+  /// is `sbisim` unless it is set.
+  void set_leaf_compression(LeafCompression compression);
+  LeafCompression leaf_compression() const;
 
   /// The names of all events that were used so far, by label.
   std::shared_ptr<const lts::LabelNames> label_names() const;
