@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <vector>
 
 #include "perentie/base/check.hpp"
+#include "perentie/base/growing_array.hpp"
 
 namespace perentie::base {
 
@@ -62,8 +62,8 @@ class UniqueIndex {
   template <class Rehash>
   void grow(Rehash rehash) {
     const std::size_t slot_count = slots_.empty() ? 64 : slots_.size() * 2;
-    std::vector<std::uint32_t>().swap(slots_);
-    slots_.assign(slot_count, empty_slot);
+    slots_ = {};
+    slots_.resize(slot_count, empty_slot);
     for (std::uint32_t index = 0; index < size_; ++index) {
       std::size_t slot = rehash(index) & mask();
       while (slots_[slot] != empty_slot) slot = (slot + 1) & mask();
@@ -71,7 +71,7 @@ class UniqueIndex {
     }
   }
 
-  std::vector<std::uint32_t> slots_;
+  GrowingArray<std::uint32_t> slots_;
   std::size_t size_ = 0;
 };
 

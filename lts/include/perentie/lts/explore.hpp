@@ -11,10 +11,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "perentie/base/growing_array.hpp"
 #include "perentie/base/limits.hpp"
 #include "perentie/base/unique_index.hpp"
 #include "perentie/lts/lts.hpp"
@@ -102,12 +105,15 @@ class VisitedStates {
   std::uint64_t peak_bytes(std::size_t more) const {
     return lts::peak_bytes(states_, more) + lts::peak_bytes(index_, more);
   }
-  std::vector<S> take() && { return std::move(states_); }
+  std::vector<S> take() && {
+    return {std::make_move_iterator(states_.begin()), std::make_move_iterator(states_.end())};
+  }
 
  private:
   System& system_;
   std::uint64_t max_states_;
-  std::vector<S> states_;
+  std::conditional_t<std::is_trivially_copyable_v<S>, base::GrowingArray<S>, std::vector<S>>
+      states_;
   base::UniqueIndex index_;
 };
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "perentie/base/growing_array.hpp"
 #include "perentie/base/unique_index.hpp"
 
 namespace perentie::lts {
@@ -19,6 +20,12 @@ std::uint64_t peak_bytes(const std::vector<T>& vector, std::size_t more) {
   const std::size_t size = vector.size() + more;
   const std::size_t moved = size > vector.capacity() ? vector.size() : 0;
   return (static_cast<std::uint64_t>(size) + moved) * sizeof(T);
+}
+
+/// The same: a growing array never holds two blocks.
+template <class T>
+std::uint64_t peak_bytes(const base::GrowingArray<T>& array, std::size_t more) {
+  return (static_cast<std::uint64_t>(array.size()) + more) * sizeof(T);
 }
 
 /// The bytes in use once `more` elements are inserted.

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "perentie/base/growing_array.hpp"
 #include "perentie/base/hash.hpp"
 #include "perentie/base/limits.hpp"
 #include "perentie/base/unique_index.hpp"
@@ -363,12 +364,12 @@ class RefinementSearch {
   const ExploreOptions& options_;
   Watch watch_;
   VisitedStates<System> states_;
-  std::vector<Pair> pairs_;          // the queue, too
-  std::vector<Arrival> arrivals_;    // by pair
-  std::vector<State> first_node_;    // by state: of the first pair with it, if there is one
-  std::vector<Pair> further_pairs_;  // the others
-  base::UniqueIndex further_index_;  // of these
-  std::size_t visited_ = 0;          // pairs
+  base::GrowingArray<Pair> pairs_;        // the queue, too
+  base::GrowingArray<Arrival> arrivals_;  // by pair
+  base::GrowingArray<State> first_node_;  // by state: of the first pair with it, if there is one
+  std::vector<Pair> further_pairs_;       // the others
+  base::UniqueIndex further_index_;       // of these
+  std::size_t visited_ = 0;               // pairs
 
   std::vector<Transition<S>> successors_;  // of the pairs in work
   std::vector<std::size_t> row_ends_;      // where those of each end

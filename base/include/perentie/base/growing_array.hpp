@@ -1,0 +1,110 @@
+// GrowingArray: a vector for very many plain elements.
+//
+// It differs from std::vector where gigabytes make a difference: large blocks grow where they are,
+// or move without a copy (`realloc`), so there is never a second block; and they ask for huge
+// pages, without which most random reads of a large block also miss the cache of page addresses.
+#pragma once
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace perentie::base {
+
+/// Asks the system for huge pages, where it has them and they are not the default.
+inline void advise_huge_pages(void* block, std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(block) + page - 1) / page * page;
+  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(block) + bytes) / page * page;
+  // Advice: without huge pages everything works as well.
+  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+#endif
+}
+
+template <class T>
+class GrowingArray {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
+ public:
+  GrowingArray() = default;
+  GrowingArray(GrowingArray&& other) noexcept { swap(other); }
+  GrowingArray& operator=(GrowingArray&& other) noexcept {
+    GrowingArray taken(std::move(other));
+    swap(taken);
+    return *this;
+  }
+  GrowingArray(const GrowingArray& other) { append(other.begin(), other.size()); }
+  GrowingArray& operator=(const GrowingArray& other) {
+    GrowingArray copy(other);
+    swap(copy);
+    return *this;
+  }
+  ~GrowingArray() { std::free(items_); }
+
+  /// Throws std::bad_alloc.
+  void push_back(const T& item) {
+    if (size_ == capacity_) {
+      const T copy = item;  // which may be one of ours
+      grow(size_ + 1);
+      new (items_ + size_++) T(copy);
+    } else {
+      new (items_ + size_++) T(item);
+    }
+  }
+  /// New elements are copies of `value`. Throws std::bad_alloc.
+  void resize(std::size_t size, const T& value = T()) {
+    if (size > capacity_) grow(size);
+    if (size > size_) std::uninitialized_fill(items_ + size_, items_ + size, value);
+    size_ = size;
+  }
+
+  T& operator[](std::size_t i) { return items_[i]; }
+  const T& operator[](std::size_t i) const { return items_[i]; }
+  T& back() { return items_[size_ - 1]; }
+  const T* begin() const { return items_; }
+  const T* end() const { return items_ + size_; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  /// What is reserved. Pages of large blocks that were never used take no memory.
+  std::size_t capacity() const { return capacity_; }
+
+ private:
+  static constexpr std::size_t huge_bytes = std::size_t{4} << 20U;
+
+  void swap(GrowingArray& other) noexcept {
+    std::swap(items_, other.items_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+  }
+
+  void append(const T* items, std::size_t count) {
+    if (size_ + count > capacity_) grow(size_ + count);
+    std::uninitialized_copy_n(items, count, items_ + size_);
+    size_ += count;
+  }
+
+  void grow(std::size_t needed) {
+    const std::size_t capacity = std::max({needed, 2 * capacity_, std::size_t{8}});
+    // T can be copied as bytes.
+    void* block = std::realloc(static_cast<void*>(items_), capacity * sizeof(T));
+    if (block == nullptr) throw std::bad_alloc();
+    if (capacity * sizeof(T) >= huge_bytes) advise_huge_pages(block, capacity * sizeof(T));
+    items_ = static_cast<T*>(block);
+    capacity_ = capacity;
+  }
+
+  T* items_ = nullptr;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace perentie::base
