@@ -1,17 +1,12 @@
 // GrowingArray: a vector for very many plain elements.
 //
 // It differs from std::vector where gigabytes make a difference: large blocks grow where they are,
-// or move without a copy (`realloc`), so there is never a second block; and they ask for huge
-// pages, without which most random reads of a large block also miss the cache of page addresses.
+// or move without a copy, so there is never a second block; and they ask for huge pages, without
+// which most random reads of a large block also miss the cache of page addresses.
 #pragma once
-
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -19,16 +14,9 @@
 
 namespace perentie::base {
 
-/// Asks the system for huge pages, where it has them and they are not the default.
-inline void advise_huge_pages(void* block, std::size_t bytes) {
-#ifdef MADV_HUGEPAGE
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(block) + page - 1) / page * page;
-  const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(block) + bytes) / page * page;
-  // Advice: without huge pages everything works as well.
-  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-#endif
-}
+/// A block of `new_bytes` bytes that begins with the first bytes of the old one, which is gone;
+/// nullptr and 0 stand for no block. Throws std::bad_alloc, and then the old block is still there.
+void* resize_block(void* block, std::size_t old_bytes, std::size_t new_bytes);
 
 template <class T>
 class GrowingArray {
@@ -48,7 +36,7 @@ class GrowingArray {
     swap(copy);
     return *this;
   }
-  ~GrowingArray() { std::free(items_); }
+  ~GrowingArray() { resize_block(items_, capacity_ * sizeof(T), 0); }
 
   /// Throws std::bad_alloc.
   void push_back(const T& item) {
@@ -78,8 +66,6 @@ class GrowingArray {
   std::size_t capacity() const { return capacity_; }
 
  private:
-  static constexpr std::size_t huge_bytes = std::size_t{4} << 20U;
-
   void swap(GrowingArray& other) noexcept {
     std::swap(items_, other.items_);
     std::swap(size_, other.size_);
@@ -95,10 +81,7 @@ class GrowingArray {
   void grow(std::size_t needed) {
     const std::size_t capacity = std::max({needed, 2 * capacity_, std::size_t{8}});
     // T can be copied as bytes.
-    void* block = std::realloc(static_cast<void*>(items_), capacity * sizeof(T));
-    if (block == nullptr) throw std::bad_alloc();
-    if (capacity * sizeof(T) >= huge_bytes) advise_huge_pages(block, capacity * sizeof(T));
-    items_ = static_cast<T*>(block);
+    items_ = static_cast<T*>(resize_block(items_, capacity_ * sizeof(T), capacity * sizeof(T)));
     capacity_ = capacity;
   }
 
