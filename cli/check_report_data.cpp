@@ -83,6 +83,9 @@ Json json_of(const CheckedAssertion& checked, const CheckReport& report) {
     witness["offered"] = w.offered;
   }
   if (!w.allowed.empty()) witness["allowed"] = w.allowed;
+  for (const Witness::Observation& o : w.observed) {
+    witness["observed"].push_back({{"after", o.place}, {"offered", o.offered}});
+  }
   if (!w.state.empty()) witness["state"] = w.state;
   if (checked.explanation) {
     witness["explanation"] = json_of(*checked.explanation, report.sources);

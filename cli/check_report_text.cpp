@@ -150,7 +150,9 @@ std::string assertion_as_text(const CheckedAssertion& checked, const CheckReport
   if (result.limit) text += fmt::format("   {}\n", base::describe(*result.limit));
   if (!result.witness) return text;
   const Witness& w = *result.witness;
-  text += fmt::format("   after {}\n   {}\n", trace_of(w.trace), behaviour_of(w));
+  text += fmt::format("   after {}\n", trace_of(w.trace));
+  for (const std::string& line : observations_of(w)) text += fmt::format("   {}\n", line);
+  text += fmt::format("   {}\n", behaviour_of(w));
   if (const std::string allowed = expectation_of(w); !allowed.empty()) {
     text += fmt::format("   {}\n", allowed);
   }

@@ -37,6 +37,16 @@ std::string behaviour_of(const Witness& w) {
   return {};
 }
 
+std::vector<std::string> observations_of(const Witness& w) {
+  std::vector<std::string> lines;
+  for (const Witness::Observation& o : w.observed) {
+    const std::vector<std::string> before(w.trace.begin(),
+                                          w.trace.begin() + static_cast<std::ptrdiff_t>(o.place));
+    lines.push_back(fmt::format("offering only {} after {}", set_of(o.offered), trace_of(before)));
+  }
+  return lines;
+}
+
 std::string expectation_of(const Witness& w) {
   if (w.kind == Witness::Kind::event && !w.allowed.empty()) {
     return fmt::format("the specification allows {}", set_of(w.allowed.front()));
@@ -44,8 +54,9 @@ std::string expectation_of(const Witness& w) {
   if (w.kind != Witness::Kind::acceptance) return {};
   std::vector<std::string> sets;
   for (const auto& acceptance : w.allowed) sets.push_back(set_of(acceptance));
-  return sets.empty()
-             ? "the specification is never stable here"
+  return sets.empty() ? "the specification is never stable here"
+         : w.is_exact
+             ? fmt::format("the specification offers {}", fmt::join(sets, " or "))
              : fmt::format("the specification offers at least {}", fmt::join(sets, " or "));
 }
 

@@ -14,6 +14,8 @@ std::string set_of(const std::vector<std::string>& events);
 std::string trace_of(const std::vector<std::string>& events);
 /// What the process does after the trace that it must not do: "it performs c".
 std::string behaviour_of(const semantics::Witness& witness);
+/// In R, what was seen to be offered on the way: "offering only {a} after <>", one each line.
+std::vector<std::string> observations_of(const semantics::Witness& witness);
 /// What would have been right, or nothing: "the specification allows {d}".
 std::string expectation_of(const semantics::Witness& witness);
 

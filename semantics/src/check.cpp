@@ -1,11 +1,15 @@
 #include "perentie/semantics/check.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include <fmt/format.h>
 
 #include "perentie/base/overload.hpp"
+#include "perentie/lts/lts_system.hpp"
 #include "perentie/lts/normalise.hpp"
+#include "perentie/lts/refusal_testing.hpp"
+#include "perentie/lts/revivals.hpp"
 #include "perentie/lts/specifications.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 #include "perentie/semantics/process_system.hpp"
@@ -78,14 +82,21 @@ class Checker {
     return found;
   }
 
+  std::optional<ProcessExploration> explored(ProcId process) {
+    auto exploration = explore_process(script_, process, options_, diagnostics_);
+    if (exploration.complete) return exploration;
+    stop(exploration.limit);
+    return std::nullopt;
+  }
+
   std::optional<lts::NormalLts> normal_form(ProcId process, bool with_acceptances) {
-    const auto exploration = explore_process(script_, process, options_, diagnostics_);
-    if (!exploration.complete) {
-      stop(exploration.limit);
-      return std::nullopt;
-    }
-    auto normalisation = lts::normalise(
-        exploration.lts, {.limits = options_.limits, .acceptances = with_acceptances});
+    const auto exploration = explored(process);
+    return exploration ? normal_form(exploration->lts, with_acceptances) : std::nullopt;
+  }
+
+  std::optional<lts::NormalLts> normal_form(const lts::Lts& lts, bool with_acceptances) {
+    auto normalisation =
+        lts::normalise(lts, {.limits = options_.limits, .acceptances = with_acceptances});
     if (!normalisation.complete()) {
       stop(normalisation.limit);
       return std::nullopt;
@@ -135,6 +146,11 @@ class Checker {
 
   // Claims
 
+  static std::string_view name_of(parser::Model model) {
+    constexpr std::string_view names[] = {"T", "F", "FD", "V", "VD", "R", "RD"};
+    return names[static_cast<std::size_t>(model)];
+  }
+
   static std::optional<SemanticModel> semantic_model(parser::Model model) {
     switch (model) {
       case parser::Model::traces:
@@ -155,7 +171,7 @@ class Checker {
 
   void check(const parser::RefinementAssertion& claim) {
     const auto model = semantic_model(claim.model);
-    if (!model) return refuse("refinement in this model");
+    if (!model) return check_beyond_failures(claim);
     const auto specification = process(claim.specification);
     if (!specification) return;
     const auto implementation = process(claim.implementation);
@@ -178,12 +194,99 @@ class Checker {
            });
   }
 
+  // The models that FDR had until 2.94: V and R, and VD and RD with strict divergence.
+  void check_beyond_failures(const parser::RefinementAssertion& claim) {
+    const auto specification = process(claim.specification);
+    if (!specification) return;
+    const auto implementation = process(claim.implementation);
+    if (!implementation) return;
+    const auto graph = explored(*specification);
+    if (!graph) return;
+    const bool strict = claim.model == parser::Model::revivals_divergences ||
+                        claim.model == parser::Model::refusal_testing_divergences;
+    const bool is_revivals = claim.model == parser::Model::revivals ||
+                             claim.model == parser::Model::revivals_divergences;
+    if (is_revivals) {
+      check_revivals(graph->lts, *implementation, strict);
+    } else {
+      check_refusal_testing(graph->lts, *implementation, strict);
+    }
+  }
+
+  void check_revivals(const lts::Lts& specification, ProcId implementation, bool strict) {
+    const auto normal = normal_form(specification, false);
+    if (!normal) return;
+    const lts::StableOffers offers(*normal, specification);
+    refine(lts::RevivalSpecification(*normal, offers), implementation,
+           strict ? SemanticModel::failures_divergences : SemanticModel::failures,
+           [&](const Found& found, Witness& witness) {
+             if (found.kind != Found::Kind::acceptance) return;
+             witness.is_exact = true;
+             for (const lts::AcceptanceId id : offers.of(found.node)) {
+               witness.allowed.push_back(words(offers.labels(id)));
+             }
+           });
+  }
+
+  // What a trace refinement needs of a specification, where acceptances are events.
+  struct AcceptsAll : lts::NormalSpecification {
+    using NormalSpecification::NormalSpecification;
+    static bool accepts(lts::State, std::span<const Label>) { return true; }
+  };
+
+  void check_refusal_testing(const lts::Lts& specification, ProcId process, bool strict) {
+    const auto graph = explored(process);
+    if (!graph) return;
+    const lts::RefusalTest test = lts::test_refusals(specification, graph->lts);
+    const auto normal = normal_form(test.specification.lts, false);
+    if (!normal) return;
+    lts::LtsSystem system(test.implementation.lts);
+    const auto found =
+        lts::refine(AcceptsAll(*normal), system,
+                    strict ? SemanticModel::failures_divergences : SemanticModel::traces, options_);
+    result_.counts = found.counts;
+    if (!found.counterexample && !found.complete()) return stop(found.limit);
+    result_.outcome = Outcome::holds;
+    if (!found.counterexample) return;
+    names_ = script_.label_names();
+    const auto& counterexample = *found.counterexample;
+    const lts::State last = test.implementation.origins[counterexample.states.back().value];
+    Witness witness{
+        .kind = Witness::Kind::event, .trace = {}, .state = script_.show(graph->term(last))};
+    for (const Label label : counterexample.trace) {
+      if (test.is_observation(label)) {
+        witness.observed.push_back({witness.trace.size(), words(test.observation(label))});
+      } else {
+        witness.trace.push_back((*names_)[label.value]);
+      }
+    }
+    if (counterexample.kind == lts::Counterexample<lts::State>::Kind::divergence) {
+      witness.kind = Witness::Kind::divergence;
+    } else if (test.is_observation(counterexample.event)) {
+      witness.kind = Witness::Kind::acceptance;
+      witness.offered = words(test.observation(counterexample.event));
+      witness.is_exact = true;
+      const lts::StableOffers offers(*normal, test.specification.lts);
+      for (const lts::AcceptanceId id : offers.of(counterexample.node)) {
+        const auto labels = offers.labels(id);
+        const auto events = std::ranges::lower_bound(labels, test.first_observation);
+        witness.allowed.push_back(words({labels.begin(), events}));
+      }
+      std::ranges::sort(witness.allowed);
+      const auto repeated = std::ranges::unique(witness.allowed);
+      witness.allowed.erase(repeated.begin(), repeated.end());
+    } else {
+      witness.event = (*names_)[counterexample.event.value];
+    }
+    refute(std::move(witness));
+  }
+
   void check(const parser::PropertyAssertion& claim) {
     const auto model = model_of(claim.model);
     const bool is_divergence = claim.property == parser::Property::divergence_free;
     if (!model || *model == SemanticModel::traces ||
         (is_divergence && *model != SemanticModel::failures_divergences)) {
-      return refuse("this property in this model");
+      return refuse(fmt::format("this property in the model {}", name_of(*claim.model)));
     }
     const auto implementation = process(claim.process);
     if (!implementation) return;
@@ -221,7 +324,9 @@ class Checker {
   // CSPM reference 5.3.8, on the normal form.
   void check(const parser::HasTraceAssertion& claim) {
     const auto model = model_of(claim.model);
-    if (!model) return refuse("has trace in this model");
+    if (!model) {
+      return refuse(fmt::format("`has trace` in the model {}", name_of(*claim.model)));
+    }
     std::vector<std::string> trace;
     for (const ExprId event : script_.tree().list(claim.trace)) {
       const auto name = script_.evaluate(event, diagnostics_);

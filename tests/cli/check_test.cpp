@@ -27,7 +27,7 @@ constexpr const char* two =
 TEST(CheckTest, TheExitCodeSaysTheWorstOutcome) {
   EXPECT_EQ(check("channel a\nassert STOP [T= STOP").exit_code, 0);
   EXPECT_EQ(check(two).exit_code, 1);
-  EXPECT_EQ(check("assert STOP [V= STOP\nassert STOP [T= SKIP").exit_code, 3);
+  EXPECT_EQ(check("assert STOP :[deadlock free [T]]\nassert STOP [T= SKIP").exit_code, 3);
   EXPECT_EQ(check("channel c : {0..1}\nassert c.2 -> STOP [T= STOP").exit_code, 3);
   EXPECT_EQ(check("x = 1 + true").exit_code, 3);
   EXPECT_EQ(check("channel c : Int\nN(i) = c.i -> N(i + 1)\nassert N(0) :[divergence free]",
@@ -156,7 +156,7 @@ TEST(CheckTest, AnyNumberOfWorkersGivesTheSame) {
 
 TEST(CheckTest, CasesForJUnit) {
   std::istringstream text(
-      check(std::string(two) + "assert P [V= P\n", {"--format", "junit"}).output);
+      check(std::string(two) + "assert P :[deadlock free [T]]\n", {"--format", "junit"}).output);
   boost::property_tree::ptree tree;
   boost::property_tree::read_xml(text, tree);
   const auto& suite = tree.get_child("testsuites.testsuite");

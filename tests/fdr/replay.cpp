@@ -149,15 +149,40 @@ AssertionResult can_do(Process& process, const Parts& parts) {
   return done ? AssertionSuccess() : AssertionFailure() << "it does not end as it says";
 }
 
+// No stable state offers nothing, or some event of the acceptance without others beyond it.
+AssertionResult lacks_revival(Process& process, const States& states, const Events& acceptance) {
+  std::set<std::string> revived;
+  bool offers_nothing = false;
+  for (const ProcId state : states) {
+    const Events offered = process.offers(state);
+    if (contains(offered, tau) || !std::ranges::includes(acceptance, offered)) continue;
+    offers_nothing = offers_nothing || offered.empty();
+    revived.insert(offered.begin(), offered.end());
+  }
+  const bool has_all = acceptance.empty() ? offers_nothing : revived.size() == acceptance.size();
+  return has_all ? AssertionFailure() << "it has all the revivals" : AssertionSuccess();
+}
+
 // The specification lacks a behaviour in the model of the refinement.
 AssertionResult cannot_do(Process& process, const Parts& parts, parser::Model model) {
   const std::vector<States> prefixes = process.after_prefixes(parts.visible);
-  if (model == parser::Model::failures_divergences) {
+  const bool is_strict =
+      model == parser::Model::failures_divergences || model == parser::Model::revivals_divergences;
+  if (is_strict) {
     for (const States& states : prefixes) {
       if (process.diverges(states)) return AssertionFailure() << "the specification diverges";
     }
   }
   if (parts.type == "loop") return AssertionSuccess();
+  // What was refused on the way is not in FDR's documents.
+  const bool tests_refusals = model == parser::Model::refusal_testing ||
+                              model == parser::Model::refusal_testing_divergences;
+  if (tests_refusals) return AssertionSuccess();
+  const bool tells_revivals =
+      model == parser::Model::revivals || model == parser::Model::revivals_divergences;
+  if (tells_revivals && parts.type == "min_acceptance") {
+    return lacks_revival(process, prefixes.back(), parts.acceptance);
+  }
   for (const ProcId state : prefixes.back()) {
     const Events offered = process.offers(state);
     if (parts.type == "trace") {

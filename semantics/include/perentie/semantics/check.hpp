@@ -38,6 +38,13 @@ struct Witness {
   bool is_refused = false;  ///< of a missing event: it may be refused, and only `offered` offered
   /// What the specification allows after the trace: its events, or each of its minimal acceptances.
   std::vector<std::vector<std::string>> allowed = {};
+  bool is_exact = false;  ///< in V and R: `allowed` is all that stable states offer
+  /// In R: what was offered on the way, after so many events of the trace.
+  struct Observation {
+    std::size_t place;
+    std::vector<std::string> offered;
+  };
+  std::vector<Observation> observed = {};
   std::string state = {};  ///< the process after the trace
 };
 
