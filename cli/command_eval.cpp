@@ -56,7 +56,8 @@ ExitCode evaluate(const Options& options, Console& console) {
     answer(process_text(*script, process, input.diagnostics));
   }
   for (const std::string& expression : options.typed) {
-    answer(script->type_of(expression, input.diagnostics));
+    const auto read = script->expression(expression, input.diagnostics);
+    answer(read ? std::optional(script->type_of(*read)) : std::nullopt);
   }
   return code;
 }

@@ -162,30 +162,29 @@ void Repl::report(bool answered) {
 void Repl::evaluate(const std::string& expression) {
   semantics::Script& script = *session_->script;
   base::Diagnostics& diagnostics = session_->input.diagnostics;
-  const std::string text = in_scope(expression);
-  const auto type = script.type_of(text, diagnostics);
   std::optional<std::string> value;
-  if (type == "Proc") {
-    if (const auto process = script.process(text, diagnostics)) {
+  if (const auto read = script.expression(in_scope(expression), diagnostics)) {
+    if (script.type_of(*read) != "Proc") {
+      value = script.evaluate(*read, diagnostics);
+    } else if (const auto process = script.process(*read, {}, diagnostics)) {
       value = script.definitions(*process, diagnostics);
     }
-  } else if (type) {
-    value = script.evaluate(text, diagnostics);
   }
   if (value) console_.result(*value + '\n');
   report(value.has_value());
 }
 
 void Repl::show_type(const std::string& expression) {
-  const auto type = session_->script->type_of(in_scope(expression), session_->input.diagnostics);
-  if (type) console_.result(fmt::format("{} :: {}\n", expression, *type));
+  semantics::Script& script = *session_->script;
+  const auto read = script.expression(in_scope(expression), session_->input.diagnostics);
+  if (read) console_.result(fmt::format("{} :: {}\n", expression, script.type_of(*read)));
   report(true);
 }
 
 void Repl::define(const std::string& definitions) {
   definitions_.push_back(definitions);
   const bool ok =
-      session_->script->type_of(in_scope("true"), session_->input.diagnostics).has_value();
+      session_->script->expression(in_scope("true"), session_->input.diagnostics).has_value();
   if (!ok) definitions_.pop_back();
   report(true);
 }

@@ -185,13 +185,22 @@ void Script::show_calls(bool shown) { impl_->machine->show_calls(shown); }
 
 std::optional<base::LimitReached> Script::limit() const { return impl_->machine->limit(); }
 
+std::optional<parser::ExprId> Script::expression(std::string_view text,
+                                                 base::Diagnostics& diagnostics,
+                                                 const std::string& origin) {
+  const parser::ExprId expr = impl_->parse(text, origin, Impl::Expected::anything, diagnostics);
+  return expr ? std::optional(expr) : std::nullopt;
+}
+
+std::string Script::type_of(parser::ExprId expression) const {
+  return impl_->types->show(expression);
+}
+
 std::optional<std::string> Script::evaluate(std::string_view expression,
                                             base::Diagnostics& diagnostics,
                                             const std::string& origin) {
-  const parser::ExprId expr =
-      impl_->parse(expression, origin, Impl::Expected::anything, diagnostics);
-  if (!expr) return std::nullopt;
-  return evaluate(expr, diagnostics);
+  const auto expr = this->expression(expression, diagnostics, origin);
+  return expr ? evaluate(*expr, diagnostics) : std::nullopt;
 }
 
 std::optional<std::string> Script::evaluate(parser::ExprId expression,
@@ -240,15 +249,6 @@ std::optional<ScriptAssertion> Script::assertion(std::string_view text,
   if (diagnostics.error_count() > errors) return std::nullopt;
   return ScriptAssertion{parser::print(tree, *parsed, {.width = 0}), tree.decls[decl].span,
                          *parsed};
-}
-
-std::optional<std::string> Script::type_of(std::string_view expression,
-                                           base::Diagnostics& diagnostics,
-                                           const std::string& origin) {
-  const parser::ExprId expr =
-      impl_->parse(expression, origin, Impl::Expected::anything, diagnostics);
-  if (!expr) return std::nullopt;
-  return impl_->types->show(expr);
 }
 
 std::optional<std::string> Script::definitions(ProcId process, base::Diagnostics& diagnostics) {

@@ -45,8 +45,8 @@ std::string type_of(const std::string& expression, const std::string& definition
   TestScript script(definitions);
   if (!script.loaded()) return script.messages();
   base::Diagnostics diagnostics;
-  const auto type = script.script().type_of(expression, diagnostics);
-  return type ? *type : base::render_all(diagnostics, script.sources());
+  const auto read = script.script().expression(expression, diagnostics);
+  return read ? script.script().type_of(*read) : base::render_all(diagnostics, script.sources());
 }
 
 std::string codes_of(const std::string& definitions) { return TestScript(definitions).codes(); }

@@ -48,13 +48,15 @@ class Script {
   /// Which budget ended the last evaluation, if one did.
   std::optional<base::LimitReached> limit() const;
 
-  /// The value of an expression in the script's scope, as FDR prints it. `origin` is what messages
-  /// call the text.
+  /// An expression in the script's scope, read and typed. `origin` is what messages call the text.
+  std::optional<parser::ExprId> expression(std::string_view text, base::Diagnostics& diagnostics,
+                                           const std::string& origin = "<expression>");
+  /// The type of an expression that was read, as FDR prints it.
+  std::string type_of(parser::ExprId expression) const;
+
+  /// The value of an expression in the script's scope, as FDR prints it.
   std::optional<std::string> evaluate(std::string_view expression, base::Diagnostics& diagnostics,
                                       const std::string& origin = "<expression>");
-  /// The type of an expression in the script's scope, as FDR prints it.
-  std::optional<std::string> type_of(std::string_view expression, base::Diagnostics& diagnostics,
-                                     const std::string& origin = "<expression>");
   /// A process with the definitions that it leads to (`show_definitions`).
   std::optional<std::string> definitions(ProcId process, base::Diagnostics& diagnostics);
   /// The process that an expression stands for.
@@ -65,7 +67,7 @@ class Script {
   std::optional<ScriptAssertion> assertion(std::string_view text, base::Diagnostics& diagnostics,
                                            const std::string& origin = "<assertion>");
 
-  /// The same of expressions in the script itself.
+  /// The same of expressions that were read, or are in the script itself.
   std::optional<std::string> evaluate(parser::ExprId expression, base::Diagnostics& diagnostics);
   /// With `tau_priority`, a set of events: τ and ✓ have priority over these (2.6.7).
   std::optional<ProcId> process(parser::ExprId expression, parser::ExprId tau_priority,
