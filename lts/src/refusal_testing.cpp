@@ -24,7 +24,7 @@ ObservedLts observed(const Lts& lts, const std::shared_ptr<const LabelNames>& na
                      Observe observe) {
   LtsBuilder builder(names);
   std::vector<State> origins;
-  builder.add_states(lts.state_count());
+  builder.add_states(static_cast<std::uint32_t>(lts.state_count()));
   for (std::uint32_t s = 0; s < lts.state_count(); ++s) {
     origins.push_back(State{s});
     for (const Edge& edge : lts.edges(State{s})) {

@@ -273,8 +273,8 @@ class Checker {
         witness.allowed.push_back(words({labels.begin(), events}));
       }
       std::ranges::sort(witness.allowed);
-      const auto repeated = std::ranges::unique(witness.allowed);
-      witness.allowed.erase(repeated.begin(), repeated.end());
+      witness.allowed.erase(std::unique(witness.allowed.begin(), witness.allowed.end()),
+                            witness.allowed.end());
     } else {
       witness.event = (*names_)[counterexample.event.value];
     }
