@@ -113,9 +113,9 @@ CheckedAssertion CheckRun::check_one(semantics::Script& script, std::size_t numb
   CheckedAssertion checked{number, &assertions_[number - 1], {.outcome = Outcome::error}, {}, {}};
   checked.result = semantics::check(script, *checked.assertion, exploration, checked.diagnostics);
   if (options.explain && checked.result.witness) {
-    checked.explanation =
-        semantics::explain(script, *checked.assertion, *checked.result.witness,
-                           {.limits = options.limits, .with_components = options.with_components});
+    checked.explanation = semantics::explain(
+        script, *checked.assertion, *checked.result.witness,
+        {.limits = exploration.limits, .with_components = options.with_components});
   }
   return checked;
 }
@@ -123,6 +123,9 @@ CheckedAssertion CheckRun::check_one(semantics::Script& script, std::size_t numb
 void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& options,
                      const std::function<bool(CheckedAssertion)>& consume) {
   const std::size_t groups = std::min(numbers.size(), max_groups);
+  const std::size_t jobs = std::min(std::max<std::size_t>(options.jobs, 1), groups);
+  base::Limits limits = options.limits;
+  if (limits.max_memory_bytes && jobs > 0) *limits.max_memory_bytes /= jobs;
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<std::optional<CheckedAssertion>> results(numbers.size());
@@ -139,7 +142,7 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
     auto place = static_cast<std::size_t>(part.data() - numbers.data());
     for (const std::size_t number : part) {
       if (stopped) return;
-      lts::ExploreOptions exploration{.limits = options.limits};
+      lts::ExploreOptions exploration{.limits = limits};
       if (options.progress) {
         exploration.progress = [&, place](const lts::ExploreProgress& progress) {
           if (awaited != place) return;
@@ -159,7 +162,6 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
     for (std::size_t group = next_group++; group < groups; group = next_group++) check_group(group);
   };
   std::deque<Worker> workers;
-  const std::size_t jobs = std::min(std::max<std::size_t>(options.jobs, 1), groups);
   for (std::size_t w = 0; w < jobs; ++w) workers.emplace_back(work);
   if (std::ranges::none_of(workers, &Worker::started)) work();
   for (std::size_t place = 0; place < numbers.size(); ++place) {

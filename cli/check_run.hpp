@@ -36,7 +36,7 @@ struct PrintedValue {
 };
 
 struct CheckOptions {
-  base::Limits limits = {};  ///< of each assertion
+  base::Limits limits = {};  ///< of each assertion; workers share the memory
   std::size_t jobs = 1;      ///< workers
   bool explain = false;
   bool with_components = false;  ///< in explanations

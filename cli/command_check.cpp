@@ -133,7 +133,8 @@ Command add_check(CLI::App& program) {
       "  perentie check corpus/check/forms.csp -a 2 --explain\n"
       "  perentie check corpus/check/forms.csp --format junit > forms.xml\n"
       "\n"
-      "The budgets are those of each assertion.\n"
+      "The budgets are those of each assertion; those that are checked side by side share the\n"
+      "memory.\n"
       "Exit codes: 0 all hold; 1 one fails; 3 one cannot be checked; 4 none fails, but a budget\n"
       "ran out.");
   return {app, [options](Console& console) { return run(*options, console); }};
