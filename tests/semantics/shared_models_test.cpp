@@ -160,9 +160,8 @@ TEST(SharedModelsTest, RefusesToEvaluateWhatTheFrontEndRefuses) {
       const std::string name = (*it)[2];
       const bool has_value = name.starts_with("test") ? script->evaluate(name).has_value()
                                                       : script->definitions(name).has_value();
-      // Fields that mix constructors are accepted: its test is false, but no error (decision 8).
-      EXPECT_EQ(has_value, file.filename() == "non_rect.csp") << name;
-      EXPECT_EQ(script->diagnostics().has_errors(), !has_value) << name;
+      EXPECT_FALSE(has_value) << name;
+      EXPECT_TRUE(script->diagnostics().has_errors()) << name;
     }
   }
   EXPECT_GE(count, 10U);

@@ -1,6 +1,7 @@
 #include "data_model.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -146,18 +147,41 @@ void DataModel::check_field(ValueId application) const {
 
 // --- Extensions ---------------------------------------------------------------------------------
 
+ValueId DataModel::next_set(ValueId application) const {
+  const bool is_atom = values_.kind(application) == ValueKind::atom;
+  const SymbolId symbol = values_.as_symbol(is_atom ? application : values_.items(application)[0]);
+  return fields(symbol)[is_atom ? 0 : values_.items(application).size() - 1];
+}
+
+void DataModel::check_next_field_is_uniform(ValueId partial) const {
+  const std::vector<ValueId> path = incomplete_path(partial);
+  if (path.size() != 1) return;
+  const ValueId set = next_set(path[0]);
+  if (!is_listed(values_, set)) return;
+  std::map<std::uint32_t, std::size_t> members;  // by constructor
+  for (const ValueId member : values_.items(set)) {
+    if (is_application(member)) ++members[values_.as_symbol(values_.items(member)[0]).value];
+  }
+  if (members.size() < 2) return;
+  for (const auto& [constructor, count] : members) {
+    std::size_t all = 1;
+    for (const ValueId field : fields(SymbolId{constructor})) {
+      all *= is_listed(values_, field) ? values_.items(field).size() : 0;  // too many to be all
+    }
+    if (all == count) continue;
+    fail(codes::not_rectangular,
+         fmt::format("the next field of `{}` takes some values of several constructors, {}, which "
+                     "is not rectangular",
+                     brief(values_, resolution_, partial), brief(values_, resolution_, set)));
+  }
+}
+
 std::vector<ValueId> DataModel::next_components(ValueId partial) const {
   const std::vector<ValueId> path = incomplete_path(partial);
   if (path.empty()) {
     fail(codes::not_an_event,
          fmt::format("`{}` has no field left to take", brief(values_, resolution_, partial)));
   }
-  const auto next_set = [&](ValueId application) {
-    const bool is_atom = values_.kind(application) == ValueKind::atom;
-    const SymbolId symbol =
-        values_.as_symbol(is_atom ? application : values_.items(application)[0]);
-    return fields(symbol)[is_atom ? 0 : values_.items(application).size() - 1];
-  };
   // A declared field set restricts what lies inside the field as well (3.6.3): find the outermost
   // application whose last field is being built, and go through that field's set.
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {

@@ -46,6 +46,9 @@ class DataModel {
   /// The values that the next field can take; with `all_remaining`, all missing fields together as
   /// one dotted value (4.3.5). In the order of sets. The result lives as long as the model.
   const std::vector<Extension>& extensions(ValueId partial, bool all_remaining) const;
+  /// Fails if the next field takes only some values of several constructors, whose extensions FDR
+  /// does not list (2.3.6).
+  void check_next_field_is_uniform(ValueId partial) const;
   /// All complete values that begin with `partial` (3.6.5).
   std::vector<ValueId> productions(ValueId partial) const;
 
@@ -66,6 +69,7 @@ class DataModel {
   ValueId append_component(ValueId left, ValueId component, bool check) const;
   ValueId with_last(ValueId dot, ValueId last) const;
   void check_field(ValueId application) const;
+  ValueId next_set(ValueId application) const;
   std::vector<ValueId> next_components(ValueId partial) const;
   std::vector<ValueId> components_after(ValueId set, std::span<const ValueId> path) const;
 

@@ -186,6 +186,7 @@ ValueId ValueBuiltins::apply(Builtin builtin, std::span<const ValueId> arguments
     case Builtin::show:
       return values.make_string(show_value(show, arguments[0]));
     case Builtin::extensions: {
+      data.check_next_field_is_uniform(arguments[0]);
       std::vector<ValueId> found;
       for (const auto& extension : data.extensions(arguments[0], true)) {
         found.push_back(extension.component);
