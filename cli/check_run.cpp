@@ -139,6 +139,8 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
     const auto part = part_of(numbers, group, groups);
     const std::unique_ptr<Copy> own = group == 0 ? nullptr : copy();
     semantics::Script& script = own == nullptr ? *script_ : *own->script;
+    script.set_leaf_compression(options.leaf_compression);
+    script.show_calls(options.show_calls);
     auto place = static_cast<std::size_t>(part.data() - numbers.data());
     for (const std::size_t number : part) {
       if (stopped) return;

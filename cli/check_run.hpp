@@ -17,6 +17,7 @@
 #include "model.hpp"
 #include "perentie/semantics/check.hpp"
 #include "perentie/semantics/explain.hpp"
+#include "perentie/semantics/machine.hpp"
 
 namespace perentie::cli {
 
@@ -40,6 +41,9 @@ struct CheckOptions {
   std::size_t jobs = 1;      ///< workers
   bool explain = false;
   bool with_components = false;  ///< in explanations
+  /// Of checks; no outcome depends on it, the number of states does (CSPM reference 6.5).
+  semantics::LeafCompression leaf_compression = semantics::LeafCompression::sbisim;
+  bool show_calls = false;  ///< errors come with the calls that led to them
   /// Told of the assertion that is handed over next; never called twice at the same time.
   std::function<void(const lts::ExploreProgress&)> progress;
 };

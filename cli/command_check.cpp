@@ -18,6 +18,8 @@ struct Options {
   std::string format = "text";
   bool explain = false;
   std::size_t jobs = default_jobs();
+  std::string leaf_compression = "sbisim";
+  bool call_stack = false;
   BudgetOptions budget;
 };
 
@@ -85,6 +87,10 @@ ExitCode run(const Options& options, Console& console) {
                       .jobs = options.jobs,
                       .explain = options.explain,
                       .with_components = true,
+                      .leaf_compression = options.leaf_compression == "none"
+                                              ? semantics::LeafCompression::none
+                                              : semantics::LeafCompression::sbisim,
+                      .show_calls = options.call_stack,
                       .progress = {}};
   checks.progress = [&console](const lts::ExploreProgress& p) { console.progress(p); };
   script->check(*numbers, checks, [&](CheckedAssertion checked) {
@@ -126,6 +132,13 @@ Command add_check(CLI::App& program) {
                   "How many assertions are checked side by side; default: one for each processor")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1024}))
       ->type_name("N");
+  app->add_option("--compress-leaves", options->leaf_compression,
+                  "none or sbisim: what is done with the processes below the parallel operators; "
+                  "no outcome depends on it")
+      ->check(CLI::IsMember({"none", "sbisim"}))
+      ->capture_default_str();
+  app->add_flag("--call-stack", options->call_stack,
+                "Show the calls that led to an error of the script");
   options->budget.add_to(*app);
   app->footer(
       "Examples:\n"

@@ -95,6 +95,10 @@ class FileRun {
                         .jobs = options_.fdr.workers.value_or(default_jobs()),
                         .explain = options_.layout.counterexamples && !options_.layout.brief,
                         .with_components = options_.layout.divide,
+                        .leaf_compression = options_.fdr.leaf_compression == "none"
+                                                ? semantics::LeafCompression::none
+                                                : semantics::LeafCompression::sbisim,
+                        .show_calls = options_.fdr.stack_traces,
                         .progress = {}};
     if (!options_.layout.quiet) {
       checks.progress = [this](const lts::ExploreProgress& p) { console_.progress(p); };

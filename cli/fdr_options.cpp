@@ -36,11 +36,9 @@ constexpr const char* compressors = "default|defaulthigh|lz4|lz4hc|zip|none";
 
 constexpr Ignored ignored[] = {
     {"compiler-check-for-immediate-recursions", on_off, "On or Off"},
-    {"compiler-leaf-compression", "none|sbisim|wbisim", "none, sbisim or wbisim"},
     {"compiler-recursive-high-level", on_off, "On or Off"},
     {"compiler-reuse-machines", on_off, "On or Off"},
     {"cspm-evaluator-heap-size", R"(\d+[kmg]?)", "a number, with K, M or G"},
-    {"cspm-evaluator-record-stack-traces", on_off, "On or Off"},
     {"cspm-profiling-active", on_off, "On or Off"},
     {"cspm-profiling-flatten-recursion", on_off, "On or Off"},
     {"gui-close-windows-on-load", on_off, "On or Off"},
@@ -82,6 +80,13 @@ void add_fdr_options(CLI::App& app, FdrOptions& options) {
   add_truth(app, "refinement-track-history", options.track_history,
             "Off: no counterexamples are reported");
   add_truth(app, "cspm-runtime-range-checks", options.range_checks, "Read, but the checks stay on");
+  add_truth(app, "cspm-evaluator-record-stack-traces", options.stack_traces,
+            "On: errors come with the calls that led to them");
+  app.add_option("--compiler-leaf-compression", options.leaf_compression,
+                 "none or sbisim; wbisim is read as sbisim: no verdict depends on it")
+      ->transform(CLI::IsMember({"none", "sbisim", "wbisim"}, CLI::ignore_case))
+      ->type_name("VALUE")
+      ->group(group);
   for (const Ignored& option : ignored) {
     app.add_option(std::string("--") + option.name, "No effect: no verdict depends on it")
         ->expected(1)

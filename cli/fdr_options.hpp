@@ -17,6 +17,8 @@ struct FdrOptions {
   std::size_t desired_counterexamples = 1;  ///< refinement.desired_counterexample_count
   bool track_history = true;                ///< refinement.track_history: counterexamples
   bool range_checks = true;                 ///< cspm.runtime_range_checks
+  bool stack_traces = false;                ///< cspm.evaluator.record_stack_traces
+  std::string leaf_compression = "sbisim";  ///< compiler.leaf_compression, in lower case
 };
 
 void add_fdr_options(CLI::App& app, FdrOptions& options);

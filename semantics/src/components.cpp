@@ -3,23 +3,6 @@
 #include <algorithm>
 
 namespace perentie::semantics {
-namespace {
-
-// Of these operators ✓ needs all operands (4.1.3).
-bool terminates_together(ProcKind kind) {
-  switch (kind) {
-    case ProcKind::interleave:
-    case ProcKind::parallel:
-    case ProcKind::alphabet_parallel:
-    case ProcKind::link_parallel:
-      return true;
-    default:
-      return false;
-  }
-}
-
-}  // namespace
-
 Components::Place Components::places(ProcId term) const {
   const ProcKind kind = processes_.kind(term);
   const std::size_t words = processes_.words(term).size();
@@ -98,7 +81,7 @@ std::vector<std::size_t> Components::partners(ProcId state, std::size_t ready,
   const ProcKind kind = processes_.kind(state);
   const auto takes_part = [&](std::size_t i) {
     if (event == lts::tau) return i == ready;
-    if (event == lts::tick) return i == ready || terminates_together(kind);
+    if (event == lts::tick) return i == ready || is_parallel(kind);
     switch (kind) {
       case ProcKind::parallel:
       case ProcKind::sync_choice:

@@ -260,9 +260,9 @@ class Explainer {
       stack.pop_back();
       const auto components = system_->terms().components(part);
       // Only where the components' names of events are those of the whole.
-      const bool is_parallel =
+      const bool is_divided =
           components.size() > 1 && components.size() == behaviour->components.size();
-      if (!is_parallel) {
+      if (!is_divided) {
         if (knows(part, label)) found.push_back(short_name(behaviour->name));
         continue;
       }

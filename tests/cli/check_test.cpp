@@ -13,6 +13,7 @@ namespace perentie::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Outcome check(const std::string& script, const std::vector<std::string>& options = {}) {
   const TemporaryFolder folder;
@@ -52,6 +53,22 @@ TEST(CheckTest, ChoosesAssertionsByNumber) {
   const Outcome none = check(two, {"-a", "3"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_NE(none.errors.find("there is no assertion 3: the script has 2"), std::string::npos);
+}
+
+TEST(CheckTest, CompressesLeavesUnlessItIsTold) {
+  const char* script =
+      "channel a, b\nP = a -> a -> P\nQ = b -> Q\nassert P ||| P ||| Q :[deadlock free [F]]\n";
+  EXPECT_THAT(check(script).output, HasSubstr("; 1 states, "));
+  EXPECT_THAT(check(script, {"--compress-leaves", "none"}).output, HasSubstr("; 4 states, "));
+  EXPECT_EQ(check(script, {"--compress-leaves", "wbisim"}).exit_code, 2);
+}
+
+TEST(CheckTest, ShowsTheCallsThatLedToAnError) {
+  const char* script =
+      "channel c : {0..1}\nout(n) = c.(n + 5) -> STOP\nP(n) = out(n)\n"
+      "assert P(1) :[deadlock free]\n";
+  EXPECT_THAT(check(script).errors, Not(HasSubstr("out(1)")));
+  EXPECT_THAT(check(script, {"--call-stack"}).errors, HasSubstr("out(1)"));
 }
 
 TEST(CheckTest, ExplainsInWords) {

@@ -40,10 +40,12 @@ Json parsed(const Outcome& outcome) {
 
 }  // namespace
 
-Json our_document(const std::filesystem::path& script, std::size_t max_states) {
+Json our_document(const std::filesystem::path& script, std::size_t max_states,
+                  const std::string& leaf_compression) {
   return parsed(
       perentie({"refines", script.string(), "--quiet", "--format", "json", "--divide",
-                "--reveal-taus", "--timeout", "60", "--max-states", std::to_string(max_states)}));
+                "--reveal-taus", "--timeout", "60", "--max-states", std::to_string(max_states),
+                "--compiler-leaf-compression", leaf_compression}));
 }
 
 std::optional<std::string> fdr_program() {

@@ -15,7 +15,8 @@ using Json = nlohmann::json;
 
 /// Our document about a script, with components and hidden events. Limits of states keep random
 /// scripts small: their assertions then have `errors`.
-Json our_document(const std::filesystem::path& script, std::size_t max_states = 100'000);
+Json our_document(const std::filesystem::path& script, std::size_t max_states = 100'000,
+                  const std::string& leaf_compression = "sbisim");
 
 /// The program `refines` on the PATH, if it is not ours.
 std::optional<std::string> fdr_program();

@@ -5,11 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <map>
-#include <sstream>
 
 #include "machine_support.hpp"
+#include "peer_rows.hpp"
 #include "perentie/lts/count.hpp"
 #include "perentie/test/paths.hpp"
 
@@ -163,22 +161,9 @@ TEST(LazyMachineTest, ProcessesOfTheCorpusAreThoseOfTheStepRules) {
 
 TEST(LazyMachineTest, ProcessesOfOthersAreThoseOfTheStepRules) {
   PERENTIE_SHARED_DATA_OR_SKIP(data);
-  std::ifstream table(data / "peer-normal-forms.tsv");
-  ASSERT_TRUE(table);
-  std::map<std::string, std::unique_ptr<TestScript>> scripts;
-  std::string line;
-  std::getline(table, line);  // the heading
-  while (std::getline(table, line)) {
-    std::istringstream row(line);
-    std::string file, process;
-    std::getline(row, file, '\t');
-    std::getline(row, process, '\t');
-    auto& script = scripts[file];
-    if (!script) script = TestScript::of_file(data / file);
-    ASSERT_TRUE(script->loaded()) << script->messages();
-    SCOPED_TRACE(file + " " + process);
-    EXPECT_TRUE(lazy_machine_is_exact(*script, process, 3'000));
-  }
+  for_each_peer(data, [](const PeerRow& row, TestScript& script) {
+    EXPECT_TRUE(lazy_machine_is_exact(script, row.process, 3'000));
+  });
 }
 
 }  // namespace

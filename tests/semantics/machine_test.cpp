@@ -4,10 +4,9 @@
 
 #include <atomic>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "machine_support.hpp"
+#include "peer_rows.hpp"
 #include "perentie/lts/count.hpp"
 #include "perentie/test/paths.hpp"
 
@@ -202,26 +201,13 @@ TEST(MachineTest, ProcessesOfTheCorpusAreThoseOfTheStepRules) {
 
 TEST(MachineTest, ProcessesOfOthersAreThoseOfTheStepRules) {
   PERENTIE_SHARED_DATA_OR_SKIP(data);
-  std::ifstream table(data / "peer-normal-forms.tsv");
-  ASSERT_TRUE(table);
-  std::map<std::string, std::unique_ptr<TestScript>> scripts;
   std::size_t machines = 0;
-  std::string line;
-  std::getline(table, line);  // the heading
-  while (std::getline(table, line)) {
-    std::istringstream row(line);
-    std::string file, process;
-    std::getline(row, file, '\t');
-    std::getline(row, process, '\t');
-    auto& script = scripts[file];
-    if (!script) script = TestScript::of_file(data / file);
-    ASSERT_TRUE(script->loaded()) << script->messages();
-    const auto found = explore_both_ways(*script, process, 1, 3'000);
-    if (!found.machine || !found.steps) continue;
-    SCOPED_TRACE(file + " " + process);
+  for_each_peer(data, [&](const PeerRow& row, TestScript& script) {
+    const auto found = explore_both_ways(script, row.process, 1, 3'000);
+    if (!found.machine || !found.steps) return;
     EXPECT_TRUE(same_reached(*found.steps, *found.machine));
     ++machines;
-  }
+  });
   EXPECT_GE(machines, 20U);
 }
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "canonical_form.hpp"
+#include "peer_rows.hpp"
 #include "perentie/test/corpus.hpp"
 #include "perentie/test/paths.hpp"
 #include "script_support.hpp"
@@ -33,37 +33,17 @@ constexpr std::size_t most_states = 700;
 
 TEST(SharedModelsTest, NormalFormsAreThoseOfAnIndependentExplorer) {
   PERENTIE_SHARED_DATA_OR_SKIP(data);
-  std::ifstream table(data / "peer-normal-forms.tsv");
-  ASSERT_TRUE(table);
-  std::map<std::string, std::unique_ptr<TestScript>> scripts;
   std::size_t compared = 0;
-  std::string line;
-  std::getline(table, line);  // the heading
-  while (std::getline(table, line)) {
-    std::istringstream row(line);
-    std::string file, process;
-    std::size_t states = 0, transitions = 0;
-    CanonicalForm traces, failures;
-    std::getline(row, file, '\t');
-    std::getline(row, process, '\t');
-    row >> states >> transitions >> traces.nodes >> traces.hash >> failures.nodes >> failures.hash;
-    ASSERT_TRUE(row) << line;
-    if (states > most_states) continue;
+  for_each_peer(data, [&](const PeerRow& row, TestScript& script) {
+    if (row.states > most_states) return;
     // It has an event `i`, which the recording took for the τ of .aut files.
-    if (file == "varanus/evaluation/wcst_10.csp") continue;
-    SCOPED_TRACE(file + " " + process);
-    auto& script = scripts[file];
-    if (!script) script = TestScript::of_file(data / file);
-    ASSERT_TRUE(script->loaded()) << script->messages();
-    const auto lts = script->explore(process, {.max_states = 100'000});
-    if (!lts) {
-      ADD_FAILURE() << script->messages();
-      continue;
-    }
-    EXPECT_EQ(trace_form(*lts), traces);
-    EXPECT_EQ(failure_form(*lts), failures);
+    if (row.file == "varanus/evaluation/wcst_10.csp") return;
+    const auto lts = script.explore(row.process, {.max_states = 100'000});
+    ASSERT_TRUE(lts) << script.messages();
+    EXPECT_EQ(trace_form(*lts), row.traces);
+    EXPECT_EQ(failure_form(*lts), row.failures);
     ++compared;
-  }
+  });
   EXPECT_GE(compared, 100U);
 }
 

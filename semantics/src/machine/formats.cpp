@@ -8,18 +8,6 @@ namespace {
 // Operators in operators: a bound on recursion; what lies deeper is a leaf.
 constexpr std::uint32_t max_depth = 300;
 
-bool is_parallel(ProcKind kind) {
-  switch (kind) {
-    case ProcKind::interleave:
-    case ProcKind::parallel:
-    case ProcKind::alphabet_parallel:
-    case ProcKind::link_parallel:
-      return true;
-    default:
-      return false;
-  }
-}
-
 // The operators whose running operands settle with the whole (`StepRules::state`).
 bool settles_operands(ProcKind kind) {
   switch (kind) {

@@ -33,6 +33,12 @@ struct OperandPlaces {
 /// Of kinds without process operands, and of calls, nothing.
 std::optional<OperandPlaces> process_operands(ProcKind kind);
 
+/// Interleaving and the parallel operators: ✓ needs all operands (4.1.3).
+constexpr bool is_parallel(ProcKind kind) {
+  return kind == ProcKind::interleave || kind == ProcKind::parallel ||
+         kind == ProcKind::alphabet_parallel || kind == ProcKind::link_parallel;
+}
+
 class ProcStore {
  public:
   ProcStore();
