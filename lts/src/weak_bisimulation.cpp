@@ -14,8 +14,8 @@
 #include "perentie/base/check.hpp"
 #include "perentie/lts/compressions.hpp"
 #include "perentie/lts/divergence.hpp"
+#include "perentie/lts/runs.hpp"
 #include "perentie/lts/watch.hpp"
-#include "signature_table.hpp"
 #include "tau_components.hpp"
 
 namespace perentie::lts {
@@ -35,7 +35,7 @@ class DelayRefinement {
         diverges_(divergent_states(lts)),
         by_rank_(lts.state_count()),
         is_due_(lts.state_count(), 0),
-        signature_(lts.state_count(), no_signature),
+        signature_(lts.state_count()),
         key_(lts.state_count(), 0),
         partition_(static_cast<std::uint32_t>(lts.state_count())) {
     const TauComponents components = tau_components(lts);
@@ -75,7 +75,9 @@ class DelayRefinement {
   }
 
  private:
-  static constexpr std::uint32_t no_signature = ~std::uint32_t{0};
+  using KeyId = base::Id<struct KeyTag>;
+  using SignatureId = base::Id<struct SignatureTag>;
+
   static constexpr std::uint64_t signature_word = std::uint64_t{~std::uint32_t{0}} << 32U;
 
   struct Predecessor {
@@ -121,17 +123,17 @@ class DelayRefinement {
         if (const auto limit = watch_.look()) return limit;
         const std::uint64_t bytes = keys_.peak_bytes(key_words_.size()) +
                                     signatures_.peak_bytes(union_.size()) +
-                                    signature_of_key_.capacity() * sizeof(std::uint32_t);
+                                    signature_of_key_.capacity() * sizeof(SignatureId);
         if (const auto limit = watch_.budget().check_memory(bytes)) return limit;
       }
       std::ranges::pop_heap(due_, std::greater<>());
       const std::uint32_t s = by_rank_[due_.back()];
       due_.pop_back();
       is_due_[s] = 0;
-      const std::uint32_t signature = sign(s);
+      const SignatureId signature = sign(s);
       if (signature == signature_[s]) continue;
       signature_[s] = signature;
-      key_[s] = signature;
+      key_[s] = signature.value;
       changed_.push_back(s);
       for (const Predecessor& p : predecessors(s)) {
         if (p.by_tau && p.state != s) make_due(p.state);
@@ -140,31 +142,31 @@ class DelayRefinement {
     return std::nullopt;
   }
 
-  std::uint32_t sign(std::uint32_t s) {
+  SignatureId sign(std::uint32_t s) {
     key_words_.clear();
     key_words_.push_back(pair_of(tau, partition_.block_of(s)));
     for (const Edge& edge : lts_.edges(State{s})) {
       if (edge.label != tau) {
         key_words_.push_back(pair_of(edge.label, partition_.block_of(edge.target.value)));
       } else if (edge.target.value != s) {
-        key_words_.push_back(signature_word | signature_[edge.target.value]);
+        key_words_.push_back(signature_word | signature_[edge.target.value].value);
       }
     }
     std::ranges::sort(key_words_);
     key_words_.erase(std::unique(key_words_.begin(), key_words_.end()), key_words_.end());
     if (key_words_.back() < signature_word) return signatures_.add(key_words_);  // no τ
-    const std::uint32_t key = keys_.add(key_words_);
-    if (key == signature_of_key_.size()) signature_of_key_.push_back(unite(key_words_));
-    return signature_of_key_[key];
+    const KeyId key = keys_.add(key_words_);
+    if (key.value == signature_of_key_.size()) signature_of_key_.push_back(unite(key_words_));
+    return signature_of_key_[key.value];
   }
 
-  std::uint32_t unite(std::span<const std::uint64_t> words) {
+  SignatureId unite(std::span<const std::uint64_t> words) {
     union_.clear();
     for (const std::uint64_t word : words) {
       if (word < signature_word) {
         union_.push_back(word);
       } else {
-        const auto part = signatures_[static_cast<std::uint32_t>(word)];
+        const auto part = signatures_[SignatureId{static_cast<std::uint32_t>(word)}];
         union_.insert(union_.end(), part.begin(), part.end());
       }
     }
@@ -182,12 +184,12 @@ class DelayRefinement {
   std::vector<Predecessor> predecessors_;
   std::vector<std::uint32_t> due_;  // a heap of ranks, the lowest on top
   std::vector<std::uint8_t> is_due_;
-  std::vector<std::uint32_t> changed_;  // states whose signature is new; in a round each once
-  SignatureTable keys_;                 // own pairs, and the signatures of τ successors
-  std::vector<std::uint32_t> signature_of_key_;
-  SignatureTable signatures_;
-  std::vector<std::uint32_t> signature_;  // by state
-  std::vector<std::uint64_t> key_;        // the same for the partition
+  std::vector<std::uint32_t> changed_;     // states whose signature is new; in a round each once
+  UniqueRuns<KeyId, std::uint64_t> keys_;  // own pairs, and the signatures of τ successors
+  std::vector<SignatureId> signature_of_key_;
+  UniqueRuns<SignatureId, std::uint64_t> signatures_;
+  std::vector<SignatureId> signature_;  // by state
+  std::vector<std::uint64_t> key_;      // the same for the partition
   Partition partition_;
   std::vector<std::uint64_t> key_words_;
   std::vector<std::uint64_t> union_;

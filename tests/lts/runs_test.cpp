@@ -38,6 +38,16 @@ TEST(UniqueRunsTest, EqualRunsHaveOneNumber) {
   EXPECT_EQ(runs.size(), 4U);
 }
 
+TEST(UniqueRunsTest, WordsDifferInTheirUpperHalves) {
+  UniqueRuns<State, std::uint64_t> runs;
+  const std::uint64_t high = std::uint64_t{1} << 63U;
+  EXPECT_EQ(runs.add(std::vector<std::uint64_t>{1, 2}), State{0});
+  EXPECT_EQ(runs.add(std::vector<std::uint64_t>{high | 1, 2}), State{1});
+  EXPECT_EQ(runs.add(std::vector<std::uint64_t>{1, high | 2}), State{2});
+  EXPECT_EQ(runs.add(std::vector<std::uint64_t>{1, 2}), State{0});
+  EXPECT_EQ(runs.size(), 3U);
+}
+
 TEST(UniqueRunsTest, RefusesOneTooMany) {
   UniqueRuns<State, State> runs;
   EXPECT_EQ(runs.add(states({1}), 2), State{0});

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -41,9 +43,12 @@ class Runs {
   std::vector<T> items_;
 };
 
-/// `T` is a `base::Id`. Runs are numbered by `IdT` in order of first appearance.
+/// Runs are numbered by `IdT`, a `base::Id`, in order of first appearance.
 template <class IdT, class T>
 class UniqueRuns {
+  static_assert(std::has_unique_object_representations_v<T>, "elements are hashed as bytes");
+  static_assert(sizeof(T) == 4 || sizeof(T) == 8);
+
  public:
   /// The number of a run, known or new; `none` if it is new and there are `max` runs already, and
   /// then no further run may be added.
@@ -68,11 +73,18 @@ class UniqueRuns {
 
  private:
   static std::uint64_t hash(std::span<const T> run) {
+    auto bytes = std::as_bytes(run);
     std::uint64_t hash = base::hash_mix(0, run.size());
-    for (; run.size() >= 2; run = run.subspan(2)) {
-      hash = base::hash_mix(hash, (std::uint64_t{run[0].value} << 32U) | run[1].value);
+    for (; bytes.size() >= 8; bytes = bytes.subspan(8)) {
+      hash = base::hash_mix(hash, word<std::uint64_t>(bytes));
     }
-    return run.empty() ? hash : base::hash_mix(hash, run[0].value);
+    return bytes.empty() ? hash : base::hash_mix(hash, word<std::uint32_t>(bytes));
+  }
+  template <class Word>
+  static Word word(std::span<const std::byte> bytes) {
+    Word word;
+    std::memcpy(&word, bytes.data(), sizeof word);
+    return word;
   }
 
   Runs<T> runs_;
