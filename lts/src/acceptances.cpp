@@ -23,13 +23,7 @@ void keep_minimal(std::vector<AcceptanceId>& ids, const UniqueRuns<AcceptanceId,
 
 AcceptanceId AcceptanceBuilder::acceptance(State stable) {
   AcceptanceId& id = initials_[stable.value];
-  if (id.is_none()) {
-    labels_.clear();
-    for (const Edge& edge : lts_.edges(stable)) {
-      if (labels_.empty() || labels_.back() != edge.label) labels_.push_back(edge.label);
-    }
-    id = sets_.add(labels_);
-  }
+  if (id.is_none()) id = sets_.add(labels_on(lts_.edges(stable)));
   return id;
 }
 

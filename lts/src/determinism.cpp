@@ -10,14 +10,6 @@ namespace perentie::lts {
 
 namespace {
 
-std::vector<Label> labels_on(std::span<const Edge> edges) {
-  std::vector<Label> labels;
-  for (const Edge& edge : edges) {
-    if (labels.empty() || labels.back() != edge.label) labels.push_back(edge.label);
-  }
-  return labels;
-}
-
 /// The least label of `performed` that some stable state of `states` refuses. `performed` holds at
 /// least the labels of these states.
 std::optional<Label> least_refused(const Lts& lts, std::span<const State> states,

@@ -19,6 +19,14 @@ EdgeIterator sort_row(EdgeIterator first, EdgeIterator last) {
 
 }  // namespace
 
+std::vector<Label> labels_on(std::span<const Edge> edges) {
+  std::vector<Label> labels;
+  for (const Edge& edge : edges) {
+    if (labels.empty() || labels.back() != edge.label) labels.push_back(edge.label);
+  }
+  return labels;
+}
+
 Lts::Lts(std::vector<std::uint64_t> rows, std::vector<Edge> edges, State initial,
          std::shared_ptr<const LabelNames> label_names)
     : rows_(std::move(rows)),

@@ -10,14 +10,6 @@ namespace {
 using ObservationId = base::Id<struct ObservationTag>;
 using Offers = UniqueRuns<ObservationId, Label>;
 
-std::vector<Label> offer_of(const Lts& lts, State state) {
-  std::vector<Label> labels;
-  for (const Edge& edge : lts.edges(state)) {
-    if (labels.empty() || labels.back() != edge.label) labels.push_back(edge.label);
-  }
-  return labels;
-}
-
 // Adds the copies of stable states; `observe(offer, add)` calls `add` with each observation.
 template <class Observe>
 ObservedLts observed(const Lts& lts, const std::shared_ptr<const LabelNames>& names,
@@ -37,7 +29,8 @@ ObservedLts observed(const Lts& lts, const std::shared_ptr<const LabelNames>& na
     const State copy = builder.add_state();
     origins.push_back(state);
     for (const Edge& edge : lts.edges(state)) builder.add_edge(copy, edge.label, edge.target);
-    observe(offer_of(lts, state), [&](Label label) { builder.add_edge(state, label, copy); });
+    observe(labels_on(lts.edges(state)),
+            [&](Label label) { builder.add_edge(state, label, copy); });
   }
   return {std::move(builder).finish(lts.initial()), std::move(origins)};
 }
@@ -47,7 +40,7 @@ ObservedLts observed(const Lts& lts, const std::shared_ptr<const LabelNames>& na
 RefusalTest test_refusals(const Lts& specification, const Lts& implementation) {
   Offers offers;
   for (std::uint32_t s = 0; s < implementation.state_count(); ++s) {
-    if (implementation.is_stable(State{s})) offers.add(offer_of(implementation, State{s}));
+    if (implementation.is_stable(State{s})) offers.add(labels_on(implementation.edges(State{s})));
   }
   const bool longer = implementation.label_names().size() >= specification.label_names().size();
   LabelNames names = longer ? implementation.label_names() : specification.label_names();

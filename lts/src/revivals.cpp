@@ -3,17 +3,12 @@
 namespace perentie::lts {
 
 StableOffers::StableOffers(const NormalLts& normal, const Lts& original) {
-  std::vector<Label> labels;
   std::vector<AcceptanceId> found;
   for (std::uint32_t node = 0; node < normal.lts.state_count(); ++node) {
     found.clear();
     for (const State state : normal.members[node]) {
       if (!original.is_stable(state)) continue;
-      labels.clear();
-      for (const Edge& edge : original.edges(state)) {
-        if (labels.empty() || labels.back() != edge.label) labels.push_back(edge.label);
-      }
-      found.push_back(sets_.add(labels));
+      found.push_back(sets_.add(labels_on(original.edges(state))));
     }
     std::ranges::sort(found);
     found.erase(std::unique(found.begin(), found.end()), found.end());

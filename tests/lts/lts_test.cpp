@@ -49,6 +49,12 @@ TEST(LtsTest, TheAlphabetLeavesOutTauTickAndUnusedLabels) {
   EXPECT_EQ(lts.find_label("nothing"), std::nullopt);
 }
 
+TEST(LtsTest, LabelsOnEdgesAreEachOnce) {
+  const Lts lts = lts_from("0 a 0; 0 b 1; 0 b 2; 0 tau 0; 0 tau 1");
+  EXPECT_EQ(labels_on(lts.edges(State{0})), (std::vector<Label>{tau, Label{2}, Label{3}}));
+  EXPECT_TRUE(labels_on(lts.edges(State{1})).empty());
+}
+
 TEST(LtsTest, RowByRowGivesTheSameGraph) {
   LtsRowBuilder rows;
   rows.add_edge(Label{3}, State{1});

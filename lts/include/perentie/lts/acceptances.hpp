@@ -56,7 +56,6 @@ class AcceptanceBuilder {
   std::vector<AcceptanceId> initials_;  // by state, once asked for
   UniqueRuns<AcceptanceId, Label> sets_;
   Runs<AcceptanceId> minimal_;
-  std::vector<Label> labels_;        // scratch
   std::vector<AcceptanceId> found_;  // scratch
 };
 

@@ -39,6 +39,9 @@ struct Edge {
 /// The names of labels, by label. Always begins with τ and ✓; names are distinct.
 using LabelNames = std::vector<std::string>;
 
+/// The labels of edges that are sorted, each once.
+std::vector<Label> labels_on(std::span<const Edge> edges);
+
 class Lts {
  public:
   std::size_t state_count() const { return rows_.size() - 1; }
