@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "discovery.hpp"
 #include "perentie/lts/compressions.hpp"
 #include "perentie/lts/divergence.hpp"
 #include "perentie/lts/memory.hpp"
@@ -70,15 +71,8 @@ GeneralisedResult diamond(const Lts& original, const base::Limits& limits) {
   AcceptanceBuilder acceptances(lts);
   LtsRowBuilder rows;
   std::vector<bool> divergent;
-  std::vector<State> number(lts.state_count());
-  std::vector<State> kept;  // by new number
-  const auto visit = [&](State s) {
-    if (number[s.value].is_none()) {
-      number[s.value] = State{static_cast<std::uint32_t>(kept.size())};
-      kept.push_back(s);
-    }
-    return number[s.value];
-  };
+  Discovery kept(lts.state_count());
+  const auto visit = [&](State s) { return kept.find(s.value, s); };
 
   std::vector<Edge> visible;
   std::vector<State> targets;

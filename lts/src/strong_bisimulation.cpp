@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "discovery.hpp"
 #include "partition.hpp"
 #include "perentie/base/check.hpp"
 #include "perentie/base/hash.hpp"
@@ -181,26 +182,11 @@ class Refinement {
 };
 
 Quotient quotient(const Lts& lts, const Partition& partition) {
-  std::vector<State> number(partition.block_count());
-  std::vector<State> found;  // by new number, the state through which its block was found
-  const auto visit = [&](State s) {
-    State& block = number[partition.block_of(s.value)];
-    if (block.is_none()) {
-      block = State{static_cast<std::uint32_t>(found.size())};
-      found.push_back(s);
-    }
-    return block;
-  };
-  visit(lts.initial());
-  LtsRowBuilder rows;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const Edge& edge : lts.edges(found[i])) rows.add_edge(edge.label, visit(edge.target));
-    rows.end_row();
-  }
-  std::vector<State> block_of(lts.state_count());
-  for (std::uint32_t s = 0; s < block_of.size(); ++s) block_of[s] = number[partition.block_of(s)];
-  return {std::move(rows).finish(State{0}, found.size(), lts.shared_label_names()),
-          std::move(block_of)};
+  return quotient_by(
+      lts, partition.block_count(), [&](State s) { return partition.block_of(s.value); },
+      [&](State s, auto add) {
+        for (const Edge& edge : lts.edges(s)) add(edge.label, edge.target);
+      });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <boost/graph/strong_components.hpp>
 #include <numeric>
 
+#include "discovery.hpp"
 #include "graph.hpp"
 #include "perentie/lts/compressions.hpp"
 #include "tau_components.hpp"
@@ -26,28 +27,14 @@ Quotient tau_loop_factor(const Lts& lts) {
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
   for (std::uint32_t s = 0; s < members.size(); ++s) members[next[components.of[s]]++] = State{s};
 
-  std::vector<State> number(components.count);
-  std::vector<std::uint32_t> found;  // by new number, its component
-  const auto visit = [&](State s) {
-    State& known = number[components.of[s.value]];
-    if (known.is_none()) {
-      known = State{static_cast<std::uint32_t>(found.size())};
-      found.push_back(components.of[s.value]);
-    }
-    return known;
-  };
-  visit(lts.initial());
-  LtsRowBuilder rows;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (std::uint32_t m = begin[found[i]]; m < begin[found[i] + std::size_t{1}]; ++m) {
-      for (const Edge& edge : lts.edges(members[m])) rows.add_edge(edge.label, visit(edge.target));
-    }
-    rows.end_row();
-  }
-  std::vector<State> block_of(lts.state_count());
-  for (std::uint32_t s = 0; s < block_of.size(); ++s) block_of[s] = number[components.of[s]];
-  return {std::move(rows).finish(State{0}, found.size(), lts.shared_label_names()),
-          std::move(block_of)};
+  return quotient_by(
+      lts, components.count, [&](State s) { return components.of[s.value]; },
+      [&](State found, auto add) {
+        const std::uint32_t component = components.of[found.value];
+        for (std::uint32_t m = begin[component]; m < begin[component + std::size_t{1}]; ++m) {
+          for (const Edge& edge : lts.edges(members[m])) add(edge.label, edge.target);
+        }
+      });
 }
 
 }  // namespace perentie::lts

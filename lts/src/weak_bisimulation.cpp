@@ -10,6 +10,7 @@
 #include <numeric>
 #include <optional>
 
+#include "discovery.hpp"
 #include "partition.hpp"
 #include "perentie/base/check.hpp"
 #include "perentie/lts/compressions.hpp"
@@ -222,31 +223,13 @@ Quotient quotient(const Lts& lts, const DelayRefinement& refinement, bool tau_fo
     });
   };
 
-  std::vector<State> number(partition.block_count());
-  std::vector<std::uint32_t> found;
-  const auto visit = [&](std::uint32_t block) {
-    if (number[block].is_none()) {
-      number[block] = State{static_cast<std::uint32_t>(found.size())};
-      found.push_back(block);
-    }
-    return number[block];
-  };
-  visit(block_of(lts.initial()));
-  LtsRowBuilder rows;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const State source = refinement.bottom(found[i]);
+  return quotient_by(lts, partition.block_count(), block_of, [&](State member, auto add) {
+    const State source = refinement.bottom(block_of(member));
     const std::span<const Edge> row = lts.edges(source);
     for (const Edge& edge : row) {
-      if (!is_superfluous(edge, row, source)) {
-        rows.add_edge(edge.label, visit(block_of(edge.target)));
-      }
+      if (!is_superfluous(edge, row, source)) add(edge.label, edge.target);
     }
-    rows.end_row();
-  }
-  std::vector<State> blocks(lts.state_count());
-  for (std::uint32_t s = 0; s < blocks.size(); ++s) blocks[s] = number[partition.block_of(s)];
-  return {std::move(rows).finish(State{0}, found.size(), lts.shared_label_names()),
-          std::move(blocks)};
+  });
 }
 
 bool has_tau(const Lts& lts) {
