@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "perentie/lts/lts.hpp"
@@ -11,9 +12,20 @@ namespace perentie::lts {
 struct TauComponents {
   /// By state: its component. τ leads from a component only to itself and to lower numbers.
   std::vector<std::uint32_t> of;
-  std::uint32_t count = 0;
+  /// The states by component, those of one ascending.
+  std::vector<std::uint32_t> states;
+  /// By component, where its states begin; one entry more than there are components.
+  std::vector<std::uint32_t> begin;
+
+  std::size_t count() const { return begin.size() - 1; }
+  std::span<const std::uint32_t> members(std::uint32_t component) const {
+    return std::span(states).subspan(begin[component], begin[component + 1] - begin[component]);
+  }
 };
 
+/// O(states + edges).
 TauComponents tau_components(const Lts& lts);
+
+bool has_tau(const Lts& lts);
 
 }  // namespace perentie::lts

@@ -34,15 +34,14 @@ class DelayRefinement {
       : lts_(lts),
         watch_(limits),
         diverges_(divergent_states(lts)),
-        by_rank_(lts.state_count()),
         is_due_(lts.state_count(), 0),
         signature_(lts.state_count()),
         key_(lts.state_count(), 0),
         partition_(static_cast<std::uint32_t>(lts.state_count())) {
-    const TauComponents components = tau_components(lts);
-    PERENTIE_CHECK(components.count == lts.state_count(), "τ leads round a cycle of states");
-    rank_ = components.of;
-    for (std::uint32_t s = 0; s < rank_.size(); ++s) by_rank_[rank_[s]] = s;
+    TauComponents components = tau_components(lts);
+    PERENTIE_CHECK(components.count() == lts.state_count(), "τ leads round a cycle of states");
+    rank_ = std::move(components.of);
+    by_rank_ = std::move(components.states);
     take_predecessors();
   }
 
@@ -230,13 +229,6 @@ Quotient quotient(const Lts& lts, const DelayRefinement& refinement, bool tau_fo
       if (!is_superfluous(edge, row, source)) add(edge.label, edge.target);
     }
   });
-}
-
-bool has_tau(const Lts& lts) {
-  for (std::uint32_t s = 0; s < lts.state_count(); ++s) {
-    if (!lts.is_stable(State{s})) return true;
-  }
-  return false;
 }
 
 /// Makes the visible steps of each state go on to all that τ leads to after them.
