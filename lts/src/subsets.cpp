@@ -9,7 +9,7 @@ Subsets::Subsets(const Lts& lts, const base::Limits& limits)
       watch_(limits),
       max_nodes_(std::clamp<std::uint64_t>(limits.max_states.value_or(State::none_value), 1,
                                            State::none_value)),
-      put_in_(lts.state_count(), 0) {
+      closure_(lts) {
   set_.push_back(lts.initial());
   close();
   nodes_.add(set_);
@@ -17,19 +17,7 @@ Subsets::Subsets(const Lts& lts, const base::Limits& limits)
 
 /// Adds to the set in hand what τ leads to from it, and sorts it.
 void Subsets::close() {
-  if (++closures_ == 0) {  // after 2^32 closures the numbers begin again
-    std::ranges::fill(put_in_, 0);
-    closures_ = 1;
-  }
-  for (const State state : set_) put_in_[state.value] = closures_;
-  for (std::size_t i = 0; i < set_.size(); ++i) {
-    for (const Edge& edge : lts_.edges(set_[i])) {
-      if (edge.label != tau) break;
-      if (put_in_[edge.target.value] == closures_) continue;
-      put_in_[edge.target.value] = closures_;
-      set_.push_back(edge.target);
-    }
-  }
+  closure_.close(set_);
   std::ranges::sort(set_);
 }
 

@@ -15,6 +15,7 @@
 #include "perentie/lts/lts.hpp"
 #include "perentie/lts/runs.hpp"
 #include "perentie/lts/watch.hpp"
+#include "tau_closure.hpp"
 
 namespace perentie::lts {
 
@@ -47,9 +48,8 @@ class Subsets {
   std::uint64_t max_nodes_;
   UniqueRuns<State, State> nodes_;
   std::vector<Edge> gathered_;
-  std::vector<State> set_;             // the set in hand
-  std::vector<std::uint32_t> put_in_;  // by state: the number of the last closure that it is in
-  std::uint32_t closures_ = 0;
+  std::vector<State> set_;  // the set in hand
+  TauClosure closure_;
 };
 
 }  // namespace perentie::lts

@@ -17,6 +17,7 @@
 #include "perentie/lts/divergence.hpp"
 #include "perentie/lts/runs.hpp"
 #include "perentie/lts/watch.hpp"
+#include "tau_closure.hpp"
 #include "tau_components.hpp"
 
 namespace perentie::lts {
@@ -236,8 +237,7 @@ std::variant<Lts, base::LimitReached> follow_with_tau(const Lts& lts, const base
   Watch watch(limits);
   LtsRowBuilder rows;
   std::vector<State> reached;
-  std::vector<std::uint32_t> put_in(lts.state_count(), 0);  // by state: the last label run
-  std::uint32_t run = 0;
+  TauClosure closure(lts);
   for (std::uint32_t s = 0; s < lts.state_count(); ++s) {
     if (watch.due()) {
       if (const auto limit = watch.look()) return *limit;
@@ -246,20 +246,9 @@ std::variant<Lts, base::LimitReached> follow_with_tau(const Lts& lts, const base
     const std::span<const Edge> row = lts.edges(State{s});
     for (auto edge = row.begin(); edge != row.end();) {
       const Label label = edge->label;
-      if (++run == 0) {
-        std::ranges::fill(put_in, 0);
-        run = 1;
-      }
       reached.clear();
-      const auto reach = [&](State t) {
-        if (put_in[t.value] == run) return;
-        put_in[t.value] = run;
-        reached.push_back(t);
-      };
-      for (; edge != row.end() && edge->label == label; ++edge) reach(edge->target);
-      for (std::size_t i = 0; label != tau && i < reached.size(); ++i) {
-        for (const Edge& step : lts.edges(reached[i], tau)) reach(step.target);
-      }
+      for (; edge != row.end() && edge->label == label; ++edge) reached.push_back(edge->target);
+      if (label != tau) closure.close(reached);
       for (const State t : reached) rows.add_edge(label, t);
     }
     rows.end_row();
