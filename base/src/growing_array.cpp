@@ -23,27 +23,25 @@ void* map(void* block, std::size_t old_bytes, std::size_t new_bytes) {
 
 }  // namespace
 
-void* resize_block(void* block, std::size_t old_bytes, std::size_t new_bytes) {
-  const bool was_mapped = old_bytes >= mapped_bytes;
-  if (new_bytes == 0) {
-    if (was_mapped) {
-      munmap(block, old_bytes);
-    } else {
-      std::free(block);
-    }
-    return nullptr;
+void* grow_block(void* block, std::size_t old_bytes, std::size_t new_bytes) {
+  if (new_bytes < mapped_bytes) {
+    void* grown = std::realloc(block, new_bytes);
+    if (grown == nullptr) throw std::bad_alloc();
+    return grown;
   }
-  if (new_bytes < mapped_bytes && !was_mapped) {
-    void* resized = std::realloc(block, new_bytes);
-    if (resized == nullptr) throw std::bad_alloc();
-    return resized;
+  if (old_bytes >= mapped_bytes) return map(block, old_bytes, new_bytes);
+  void* mapped = map(nullptr, 0, new_bytes);
+  if (block != nullptr) std::memcpy(mapped, block, old_bytes);
+  std::free(block);
+  return mapped;
+}
+
+void free_block(void* block, std::size_t bytes) {
+  if (bytes >= mapped_bytes) {
+    munmap(block, bytes);
+  } else {
+    std::free(block);
   }
-  if (new_bytes >= mapped_bytes && was_mapped) return map(block, old_bytes, new_bytes);
-  void* moved = new_bytes >= mapped_bytes ? map(nullptr, 0, new_bytes) : std::malloc(new_bytes);
-  if (moved == nullptr) throw std::bad_alloc();
-  if (block != nullptr) std::memcpy(moved, block, std::min(old_bytes, new_bytes));
-  resize_block(block, old_bytes, 0);
-  return moved;
 }
 
 }  // namespace perentie::base

@@ -14,9 +14,10 @@
 
 namespace perentie::base {
 
-/// A block of `new_bytes` bytes that begins with the first bytes of the old one, which is gone;
+/// A block of `new_bytes` bytes, more than before, that begins with the old one, which is gone;
 /// nullptr and 0 stand for no block. Throws std::bad_alloc, and then the old block is still there.
-void* resize_block(void* block, std::size_t old_bytes, std::size_t new_bytes);
+void* grow_block(void* block, std::size_t old_bytes, std::size_t new_bytes);
+void free_block(void* block, std::size_t bytes);
 
 template <class T>
 class GrowingArray {
@@ -36,7 +37,7 @@ class GrowingArray {
     swap(copy);
     return *this;
   }
-  ~GrowingArray() { resize_block(items_, capacity_ * sizeof(T), 0); }
+  ~GrowingArray() { free_block(items_, capacity_ * sizeof(T)); }
 
   /// Throws std::bad_alloc.
   void push_back(const T& item) {
@@ -81,7 +82,7 @@ class GrowingArray {
   void grow(std::size_t needed) {
     const std::size_t capacity = std::max({needed, 2 * capacity_, std::size_t{8}});
     // T can be copied as bytes.
-    items_ = static_cast<T*>(resize_block(items_, capacity_ * sizeof(T), capacity * sizeof(T)));
+    items_ = static_cast<T*>(grow_block(items_, capacity_ * sizeof(T), capacity * sizeof(T)));
     capacity_ = capacity;
   }
 
