@@ -147,16 +147,17 @@ void DataModel::check_field(ValueId application) const {
 
 // --- Extensions ---------------------------------------------------------------------------------
 
-ValueId DataModel::next_set(ValueId application) const {
+// The sets of the fields that a channel or constructor, alone or applied, has not taken yet.
+std::span<const ValueId> DataModel::remaining_fields(ValueId application) const {
   const bool is_atom = values_.kind(application) == ValueKind::atom;
   const SymbolId symbol = values_.as_symbol(is_atom ? application : values_.items(application)[0]);
-  return fields(symbol)[is_atom ? 0 : values_.items(application).size() - 1];
+  return fields(symbol).subspan(is_atom ? 0 : values_.items(application).size() - 1);
 }
 
 void DataModel::check_next_field_is_uniform(ValueId partial) const {
   const std::vector<ValueId> path = incomplete_path(partial);
   if (path.size() != 1) return;
-  const ValueId set = next_set(path[0]);
+  const ValueId set = remaining_fields(path[0]).front();
   if (!is_listed(values_, set)) return;
   std::map<std::uint32_t, std::size_t> members;  // by constructor
   for (const ValueId member : values_.items(set)) {
@@ -191,7 +192,7 @@ std::vector<ValueId> DataModel::next_components(ValueId partial) const {
     if (!is_listed(values_, set)) continue;
     return components_after(set, std::span(path).subspan(i + 1));
   }
-  const ValueId set = next_set(path.back());
+  const ValueId set = remaining_fields(path.back()).front();
   if (!is_listed(values_, set)) {
     const bool finite = is_finite(values_, set);
     fail(finite ? codes::too_large : codes::infinite_set,
@@ -245,11 +246,8 @@ void DataModel::check_extension_count(ValueId partial) const {
                                        brief(values_, resolution_, partial), max_set_elements));
   };
   if (incomplete_path(partial).size() != 1) return;  // inside a field: bounded by its declared set
-  const bool is_atom = values_.kind(partial) == ValueKind::atom;
-  const SymbolId symbol = values_.as_symbol(is_atom ? partial : values_.items(partial)[0]);
-  const std::size_t given = is_atom ? 0 : values_.items(partial).size() - 1;
   std::size_t count = 1;
-  for (const ValueId set : fields(symbol).subspan(given)) {
+  for (const ValueId set : remaining_fields(partial)) {
     if (!is_listed(values_, set)) return;  // refused where it is reached
     const std::size_t size = values_.items(set).size();
     if (size == 0) return;

@@ -69,7 +69,7 @@ class DataModel {
   ValueId append_component(ValueId left, ValueId component, bool check) const;
   ValueId with_last(ValueId dot, ValueId last) const;
   void check_field(ValueId application) const;
-  ValueId next_set(ValueId application) const;
+  std::span<const ValueId> remaining_fields(ValueId application) const;
   std::vector<ValueId> next_components(ValueId partial) const;
   std::vector<ValueId> components_after(ValueId set, std::span<const ValueId> path) const;
 
