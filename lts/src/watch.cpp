@@ -19,4 +19,11 @@ std::optional<base::LimitReached> Watch::look() {
   return budget_.check_time();
 }
 
+bool Watch::report_due() {
+  constexpr double seconds_between_reports = 0.1;
+  if (last_look_ - last_report_ < seconds_between_reports) return false;
+  last_report_ = last_look_;
+  return true;
+}
+
 }  // namespace perentie::lts

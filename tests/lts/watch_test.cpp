@@ -48,6 +48,17 @@ TEST(WatchTest, LooksAtEveryUnitOfSlowWork) {
   EXPECT_GT(looks, 30);
 }
 
+TEST(WatchTest, ReportsAreDueNowAndThen) {
+  Watch watch({});
+  watch.look();
+  EXPECT_FALSE(watch.report_due());
+  std::this_thread::sleep_for(std::chrono::milliseconds(120));
+  EXPECT_FALSE(watch.report_due()) << "the clock was not looked at";
+  watch.look();
+  EXPECT_TRUE(watch.report_due());
+  EXPECT_FALSE(watch.report_due());
+}
+
 TEST(WatchTest, ReportsTheTimeLimit) {
   Watch watch({.timeout = std::chrono::milliseconds(5)});
   std::this_thread::sleep_for(std::chrono::milliseconds(10));

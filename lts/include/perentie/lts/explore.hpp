@@ -191,7 +191,7 @@ class Explorer {
       if (watch_.due()) {
         limit_ = watch_.look();
         if (limit_) return;
-        report();
+        if (options_.progress && watch_.report_due()) options_.progress(progress());
       }
       failed_ = !system_.successors(visited_[s], successors_);
       if (failed_) return;
@@ -219,14 +219,6 @@ class Explorer {
     return true;
   }
 
-  void report() {
-    constexpr double seconds_between_reports = 0.1;
-    const double now = watch_.budget().elapsed_seconds();
-    if (!options_.progress || now - last_report_ < seconds_between_reports) return;
-    last_report_ = now;
-    options_.progress(progress());
-  }
-
   std::uint64_t peak_bytes(std::size_t more) const {
     std::uint64_t bytes = visited_.peak_bytes(more) + rows_.peak_bytes(more);
     if constexpr (requires { system_.memory_bytes(); }) bytes += system_.memory_bytes();
@@ -244,7 +236,6 @@ class Explorer {
   std::uint64_t fired_ = 0;
   std::uint64_t ply_ = 0;    // of the next state without a row
   std::size_t ply_end_ = 1;  // the first state of the ply after it
-  double last_report_ = 0;
   std::optional<base::LimitReached> limit_;
   bool failed_ = false;
 };

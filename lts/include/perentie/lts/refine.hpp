@@ -160,18 +160,12 @@ class RefinementSearch {
                             lts::peak_bytes(further_index_, 1) + lts::peak_bytes(divergence_, 1);
       if constexpr (requires { system_.memory_bytes(); }) bytes += system_.memory_bytes();
       result_.limit = watch_.budget().check_memory(bytes);
-      report(bytes);
+      if (options_.progress && watch_.report_due()) {
+        options_.progress({pairs_.size(), result_.counts.transitions, result_.counts.plys,
+                           pairs_.size() - visited_, bytes, watch_.budget().elapsed_seconds()});
+      }
     }
     return !result_.limit;
-  }
-
-  void report(std::uint64_t bytes) {
-    constexpr double seconds_between_reports = 0.1;
-    const double now = watch_.budget().elapsed_seconds();
-    if (!options_.progress || now - last_report_ < seconds_between_reports) return;
-    last_report_ = now;
-    options_.progress({pairs_.size(), result_.counts.transitions, result_.counts.plys,
-                       pairs_.size() - visited_, bytes, now});
   }
 
   // The successors of a few pairs are computed together, so that the look-ups of theirs can wait
@@ -388,7 +382,6 @@ class RefinementSearch {
   std::vector<std::uint64_t> hashes_ahead_;
   std::vector<Edge> row_ahead_;
 
-  double last_report_ = 0;
   RefineResult<S> result_;
 };
 

@@ -21,6 +21,9 @@ class Watch {
   /// The time limit or the cancellation, if reached. Call it when a look is due.
   std::optional<base::LimitReached> look();
 
+  /// Whether a report of progress is due after a look: about every 100 ms.
+  bool report_due();
+
   const base::Budget& budget() const { return budget_; }
 
  private:
@@ -28,6 +31,7 @@ class Watch {
   std::uint32_t countdown_ = 1;
   std::uint32_t spacing_ = 1;  // units of work from one look to the next
   double last_look_ = 0;       // seconds since the budget began
+  double last_report_ = 0;
 };
 
 }  // namespace perentie::lts
