@@ -37,6 +37,15 @@ std::vector<const Behaviour*> leaves_of(const Behaviour& whole) {
   return leaves;
 }
 
+// The events that a part of the system took part in.
+std::vector<std::string> own_events_of(const Behaviour& part) {
+  std::vector<std::string> events;
+  for (const std::string& event : part.trace) {
+    if (!event.empty()) events.push_back(event);
+  }
+  return events;
+}
+
 std::string step_word(const Explanation& explanation, std::size_t i) {
   const std::string& word = explanation.implementation.trace[i];
   const std::string hidden =
@@ -72,12 +81,8 @@ std::string other_run_of(const Explanation& explanation) {
     return {};
   }
   const Behaviour& other = *explanation.specification;
-  std::vector<std::string> trace;
-  for (const std::string& event : other.trace) {
-    if (!event.empty()) trace.push_back(event);
-  }
-  return fmt::format("   but after {} it may perform {}, in the state {}\n", trace_of(trace),
-                     other.event, other.states.back().term);
+  return fmt::format("   but after {} it may perform {}, in the state {}\n",
+                     trace_of(own_events_of(other)), other.event, other.states.back().term);
 }
 
 std::string components_of(const Explanation& explanation, const base::SourceMap& sources) {
@@ -85,11 +90,7 @@ std::string components_of(const Explanation& explanation, const base::SourceMap&
   if (leaves.size() < 2) return {};
   std::string text = "   components\n";
   for (const Behaviour* leaf : leaves) {
-    std::vector<std::string> own;
-    for (const std::string& event : leaf->trace) {
-      if (!event.empty()) own.push_back(event);
-    }
-    text += fmt::format("     {} after {}", leaf->name, trace_of(own));
+    text += fmt::format("     {} after {}", leaf->name, trace_of(own_events_of(*leaf)));
     if (!leaf->event.empty()) text += fmt::format(" performs {}", leaf->event);
     if (leaf->kind == Behaviour::Kind::acceptance) {
       text += fmt::format(" offers {}", set_of(leaf->acceptance));

@@ -87,9 +87,7 @@ ExitCode run(const Options& options, Console& console) {
                       .jobs = options.jobs,
                       .explain = options.explain,
                       .with_components = true,
-                      .leaf_compression = options.leaf_compression == "none"
-                                              ? semantics::LeafCompression::none
-                                              : semantics::LeafCompression::sbisim,
+                      .leaf_compression = leaf_compression_of(options.leaf_compression),
                       .show_calls = options.call_stack,
                       .progress = {}};
   checks.progress = [&console](const lts::ExploreProgress& p) { console.progress(p); };

@@ -209,9 +209,7 @@ ExitCode make_lts(const Options& options, Console& console) {
   const auto script = load_script(options.file, input, console, code);
   if (script == nullptr) return code;
   const base::Limits limits = options.budget.limits();
-  script->set_leaf_compression(options.leaf_compression == "sbisim"
-                                   ? semantics::LeafCompression::sbisim
-                                   : semantics::LeafCompression::none);
+  script->set_leaf_compression(leaf_compression_of(options.leaf_compression));
   const auto built = build_lts(*script, options.process, "--process", limits, input, console, code);
   if (!built) return code;
   if (built->limit) {

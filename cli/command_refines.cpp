@@ -95,9 +95,7 @@ class FileRun {
                         .jobs = options_.fdr.workers.value_or(default_jobs()),
                         .explain = options_.layout.counterexamples && !options_.layout.brief,
                         .with_components = options_.layout.divide,
-                        .leaf_compression = options_.fdr.leaf_compression == "none"
-                                                ? semantics::LeafCompression::none
-                                                : semantics::LeafCompression::sbisim,
+                        .leaf_compression = leaf_compression_of(options_.fdr.leaf_compression),
                         .show_calls = options_.fdr.stack_traces,
                         .progress = {}};
     if (!options_.layout.quiet) {

@@ -72,15 +72,6 @@ std::string inconclusive(const base::LimitReached& limit) {
   return "inconclusive: " + base::describe(limit);
 }
 
-std::vector<std::string> errors_in(const base::Diagnostics& diagnostics,
-                                   const base::SourceMap& sources) {
-  std::vector<std::string> errors;
-  for (const base::Diagnostic& d : diagnostics.all()) {
-    if (d.code->severity == base::Severity::error) errors.push_back(fdr_message(d, sources));
-  }
-  return errors;
-}
-
 }  // namespace
 
 std::string_view fdr_type(Behaviour::Kind kind) {
@@ -155,13 +146,23 @@ std::string fdr_message(const base::Diagnostic& diagnostic, const base::SourceMa
   return text;
 }
 
+std::vector<std::string> fdr_messages(const base::Diagnostics& diagnostics, base::Severity severity,
+                                      const base::SourceMap& sources) {
+  std::vector<std::string> messages;
+  for (const base::Diagnostic& d : diagnostics.all()) {
+    if (d.code->severity == severity) messages.push_back(fdr_message(d, sources));
+  }
+  return messages;
+}
+
 std::vector<std::string> fdr_errors(const CheckedAssertion& checked,
                                     const base::SourceMap& sources) {
   using Outcome = CheckResult::Outcome;
   const bool is_decided =
       checked.result.outcome == Outcome::holds || checked.result.outcome == Outcome::fails;
   if (is_decided) return {};
-  std::vector<std::string> errors = errors_in(checked.diagnostics, sources);
+  std::vector<std::string> errors =
+      fdr_messages(checked.diagnostics, base::Severity::error, sources);
   if (checked.result.limit) errors.push_back(inconclusive(*checked.result.limit));
   if (errors.empty()) errors.emplace_back("the assertion cannot be checked");
   return errors;
@@ -169,7 +170,8 @@ std::vector<std::string> fdr_errors(const CheckedAssertion& checked,
 
 std::vector<std::string> fdr_errors(const PrintedValue& printed, const base::SourceMap& sources) {
   if (printed.value) return {};
-  std::vector<std::string> errors = errors_in(printed.diagnostics, sources);
+  std::vector<std::string> errors =
+      fdr_messages(printed.diagnostics, base::Severity::error, sources);
   if (printed.limit) errors.push_back(inconclusive(*printed.limit));
   if (errors.empty()) errors.emplace_back("the text cannot be parsed");
   return errors;

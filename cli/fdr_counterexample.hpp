@@ -28,6 +28,8 @@ std::string_view fdr_title(semantics::Behaviour::Kind kind);
 
 /// `file:line:column-column:` and the message below, as FDR's front end reports errors.
 std::string fdr_message(const base::Diagnostic& diagnostic, const base::SourceMap& sources);
+std::vector<std::string> fdr_messages(const base::Diagnostics& diagnostics, base::Severity severity,
+                                      const base::SourceMap& sources);
 /// `file:line:column-column`, or over several lines `file:line:column-line:column`; the end is the
 /// place behind the last character.
 std::string fdr_location(base::Span span, const base::SourceMap& sources);

@@ -58,11 +58,7 @@ class Document {
 
  private:
   Json messages(base::Severity severity) const {
-    Json list = Json::array();
-    for (const base::Diagnostic& d : report_.load_diagnostics.all()) {
-      if (d.code->severity == severity) list.push_back(fdr_message(d, report_.sources));
-    }
-    return list;
+    return fdr_messages(report_.load_diagnostics, severity, report_.sources);
   }
 
   // With the word `print` before the expression, which is all that the span has.

@@ -69,6 +69,10 @@ base::Limits BudgetOptions::limits() const {
   return limits;
 }
 
+semantics::LeafCompression leaf_compression_of(const std::string& option) {
+  return option == "none" ? semantics::LeafCompression::none : semantics::LeafCompression::sbisim;
+}
+
 std::optional<base::FileId> Input::read(const std::string& path) {
   const base::AddedFile added = base::add_file(path, sources);
   if (!added.file) {

@@ -30,6 +30,9 @@ struct BudgetOptions {
   base::Limits limits() const;
 };
 
+/// What the options about leaf compression say: `none`, or else strong bisimulation.
+semantics::LeafCompression leaf_compression_of(const std::string& option);
+
 /// The texts and messages of one run of the program.
 struct Input {
   base::SourceMap sources;
