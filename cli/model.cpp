@@ -12,8 +12,10 @@
 namespace perentie::cli {
 namespace {
 
-constexpr base::DiagnosticCode unreadable_file{"I001", base::Severity::error,
-                                               "a file cannot be read"};
+#define PERENTIE_DIAGNOSTIC(name, id, severity, title) \
+  constexpr base::DiagnosticCode name{id, base::Severity::severity, title};
+#include "diagnostic_codes.def"
+#undef PERENTIE_DIAGNOSTIC
 
 // CLI::PositiveNumber names the greatest double, with all its digits, when it complains.
 const CLI::Validator positive(

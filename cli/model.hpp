@@ -38,7 +38,7 @@ struct Input {
   base::SourceMap sources;
   base::Diagnostics diagnostics;
 
-  /// Reads a file into the sources; an I001 diagnostic if it cannot be read.
+  /// Reads a file into the sources; a C001 diagnostic if it cannot be read.
   std::optional<base::FileId> read(const std::string& path);
   /// What to exit with after errors: `io_error` if a file could not be read, else `otherwise`.
   ExitCode failure(ExitCode otherwise) const;

@@ -55,6 +55,7 @@ TEST(EvalTest, AScriptThatCannotBeRead) {
   const Outcome outcome = perentie({"eval", "corpus/missing.csp", "-e", "1"});
   EXPECT_EQ(outcome.exit_code, 5);
   EXPECT_THAT(outcome.errors, HasSubstr("cannot read `corpus/missing.csp`"));
+  EXPECT_THAT(outcome.errors, HasSubstr(" [C001]\n"));
 }
 
 TEST(DumpTest, EveryPhaseOfAScript) {

@@ -142,6 +142,22 @@ TEST(ConventionsTest, SourcesAreOfReadableSize) {
   }
 }
 
+TEST(ConventionsTest, DiagnosticCodesStandForOneThing) {
+  const std::regex code(R"re("([A-Z]\d{3})",\s*(error|warning|\w+::Severity))re");
+  std::map<std::string, std::string> place_of;
+  for (const File& file : files()) {
+    if (begins_with(file.path, "tests/")) continue;
+    if (!is_source(file.path) && !ends_with(file.path, "diagnostic_codes.def")) continue;
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+      std::smatch match;
+      if (!std::regex_search(file.lines[i], match, code)) continue;
+      const auto [first, is_new] = place_of.try_emplace(match[1].str(), place(file, i));
+      EXPECT_TRUE(is_new) << match[1] << " is at " << first->second << " and " << place(file, i);
+    }
+  }
+  EXPECT_GT(place_of.size(), 50U);
+}
+
 TEST(ConventionsTest, EveryHeaderSaysItsIdeaFirst) {
   for (const File& file : files()) {
     if (!ends_with(file.path, ".hpp") || file.lines.empty()) continue;

@@ -19,7 +19,7 @@ namespace perentie::base {
 enum class Severity : std::uint8_t { error, warning };
 
 /// One kind of diagnostic. Codes are never reused: L lexing, P parsing, N names, T types, E
-/// evaluation, M monitor, I input and output.
+/// evaluation, M monitor, I files of transition systems, C the program.
 struct DiagnosticCode {
   std::string_view id;  ///< such as "P003"
   Severity severity;
