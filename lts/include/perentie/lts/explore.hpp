@@ -13,6 +13,7 @@
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -89,14 +90,23 @@ class VisitedStates {
     const std::uint64_t hash = system_.state_hash(state);
     return add(std::move(state), hash);
   }
-  /// Two steps that may precede `add` by some time and make it cheaper: the table waits for memory,
-  /// then the states do.
-  void prefetch_slot(std::uint64_t hash) const { index_.prefetch(hash); }
-  /// Returns the number of the state that `add` will probably find.
-  std::optional<std::uint32_t> prefetch_state(std::uint64_t hash) const {
-    const auto number = index_.candidate(hash);
-    if (number) __builtin_prefetch(&states_[*number]);
-    return number;
+  /// Computes the hashes of the targets of transitions, and makes `add` cheaper for them: their
+  /// look-ups wait for memory at the same time, first the table, then the states. `expect(number)`
+  /// is told of the states that `add` will probably find.
+  template <class Expect>
+  void prefetch(std::span<const Transition<S>> transitions, std::vector<std::uint64_t>& hashes,
+                Expect expect) const {
+    hashes.clear();
+    for (const Transition<S>& transition : transitions) {
+      hashes.push_back(system_.state_hash(transition.target));
+      index_.prefetch(hashes.back());
+    }
+    for (const std::uint64_t hash : hashes) {
+      const std::optional<std::uint32_t> number = index_.candidate(hash);
+      if (!number) continue;
+      __builtin_prefetch(&states_[*number]);
+      expect(*number);
+    }
   }
 
   const S& operator[](std::size_t number) const { return states_[number]; }
@@ -166,12 +176,7 @@ class Explorer {
       limit_ = reached;
       return false;
     }
-    hashes_.clear();
-    for (const Transition<S>& transition : successors_) {
-      hashes_.push_back(system_.state_hash(transition.target));
-      visited_.prefetch_slot(hashes_.back());
-    }
-    for (const std::uint64_t hash : hashes_) visited_.prefetch_state(hash);
+    visited_.prefetch(successors_, hashes_, [](std::uint32_t) {});
     std::size_t begin = 0;
     for (const std::size_t end : row_ends_) {
       if (!add_row(begin, end)) return false;

@@ -138,14 +138,31 @@ class RefinementSearch {
     }
   }
 
-  // The number of a state. False if there are too many to number.
-  bool number(S&& state, std::uint64_t hash, State& to) {
-    const auto found = states_.add(std::move(state), hash);
-    if (!found) {
-      result_.limit = base::LimitReached{base::LimitKind::states, State::none_value};
-      return false;
+  // Transitions of one state or several, and the hashes of their targets.
+  struct Successors {
+    std::vector<Transition<S>> transitions;
+    std::vector<std::uint64_t> hashes;
+  };
+
+  void prefetch(Successors& successors) {
+    states_.prefetch(successors.transitions, successors.hashes, [&](std::uint32_t number) {
+      if (number < first_node_.size()) __builtin_prefetch(&first_node_[number]);
+    });
+  }
+
+  // Numbers the targets of the transitions [begin, end). False if there are too many states.
+  bool make_row(Successors& successors, std::size_t begin, std::size_t end,
+                std::vector<Edge>& row) {
+    row.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      Transition<S>& transition = successors.transitions[i];
+      const auto target = states_.add(std::move(transition.target), successors.hashes[i]);
+      if (!target) {
+        result_.limit = base::LimitReached{base::LimitKind::states, State::none_value};
+        return false;
+      }
+      row.push_back({transition.label, *target});
     }
-    to = *found;
     return true;
   }
 
@@ -173,24 +190,17 @@ class RefinementSearch {
   static constexpr std::size_t block_size = 16;
 
   void visit_block(std::size_t last) {
-    successors_.clear();
+    successors_.transitions.clear();
     row_ends_.clear();
     bool has_failed = false;
     for (std::size_t p = visited_; p < last && !has_failed; ++p) {
       if (!is_within_budget()) return;
       const State state = pairs_[p].state;
-      has_failed = !has_row(state) && !system_.successors(states_[state.value], successors_);
-      if (!has_failed) row_ends_.push_back(successors_.size());
+      has_failed =
+          !has_row(state) && !system_.successors(states_[state.value], successors_.transitions);
+      if (!has_failed) row_ends_.push_back(successors_.transitions.size());
     }
-    hashes_.clear();
-    for (const Transition<S>& transition : successors_) {
-      hashes_.push_back(system_.state_hash(transition.target));
-      states_.prefetch_slot(hashes_.back());
-    }
-    for (const std::uint64_t hash : hashes_) {
-      const auto probable = states_.prefetch_state(hash);
-      if (probable && *probable < first_node_.size()) __builtin_prefetch(&first_node_[*probable]);
-    }
+    if (!result_.counterexample) prefetch(successors_);
     std::size_t begin = 0;
     for (const std::size_t end : row_ends_) {
       visit(begin, end);
@@ -200,40 +210,46 @@ class RefinementSearch {
     result_.failed = has_failed;
   }
 
-  // The next pair, whose successors are [begin, end).
+  // The next pair, whose successors are [begin, end) if the row of its state is not known. Targets
+  // are numbered only if there is a use for them.
   void visit(std::size_t begin, std::size_t end) {
     const std::size_t p = visited_++;
     const auto [node, state] = pairs_[p];
-    if (has_row(state)) {
-      edges_ = rows_[row_of_[state.value]];
-    } else {
-      row_.clear();
-      for (std::size_t i = begin; i < end; ++i) {
-        State target;
-        if (!number(std::move(successors_[i].target), hashes_[i], target)) return;
-        row_.push_back({successors_[i].label, target});
-      }
-      edges_ = row_;
-    }
-    result_.counts.transitions += edges_.size();
+    const bool is_known = has_row(state);
+    if (is_known) edges_ = rows_[row_of_[state.value]];
+    result_.counts.transitions += is_known ? edges_.size() : end - begin;
     if (result_.counterexample) return;  // only counted
     const bool divergences = model_ == SemanticModel::failures_divergences;
     // After a divergence of the specification everything is allowed (5.2.3).
     if (divergences && specification_.allows_divergence(node)) return;
-    nodes_.clear();
-    for (const Edge& edge : edges_) {
-      const auto next = edge.label == tau ? node : specification_.next(node, edge.label);
-      if (!next) {
-        refute(Counterexample<S>::Kind::event, p).event = edge.label;
-        return;
-      }
-      nodes_.push_back(*next);
+    const auto error =
+        is_known ? follow(node, edges_)
+                 : follow(node, std::span(successors_.transitions).subspan(begin, end - begin));
+    if (error) {
+      refute(Counterexample<S>::Kind::event, p).event = *error;
+      return;
+    }
+    if (!is_known) {
+      if (!make_row(successors_, begin, end, row_)) return;
+      edges_ = row_;
     }
     if (model_ != SemanticModel::traces && refutes_failures(p)) return;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       add({nodes_[i], edges_[i].target}, static_cast<std::uint32_t>(p), edges_[i].label);
       if (result_.limit) return;
     }
+  }
+
+  // Finds the nodes that labels lead to, or the first label that leads to none.
+  template <class Labelled>
+  std::optional<Label> follow(State node, std::span<Labelled> steps) {
+    nodes_.clear();
+    for (const auto& step : steps) {
+      const auto next = step.label == tau ? node : specification_.next(node, step.label);
+      if (!next) return step.label;
+      nodes_.push_back(*next);
+    }
+    return std::nullopt;
   }
 
   // Whether the pair is a counterexample by an acceptance or a divergence, or a limit was reached.
@@ -329,21 +345,11 @@ class RefinementSearch {
   // What is computed here before its state is visited is kept for the visit.
   bool compute_row(State state) {
     if (!is_within_budget()) return false;
-    ahead_.clear();
-    result_.failed = !system_.successors(states_[state.value], ahead_);
+    ahead_.transitions.clear();
+    result_.failed = !system_.successors(states_[state.value], ahead_.transitions);
     if (result_.failed) return false;
-    hashes_ahead_.clear();
-    for (const Transition<S>& transition : ahead_) {
-      hashes_ahead_.push_back(system_.state_hash(transition.target));
-      states_.prefetch_slot(hashes_ahead_.back());
-    }
-    for (const std::uint64_t hash : hashes_ahead_) states_.prefetch_state(hash);
-    row_ahead_.clear();
-    for (std::size_t i = 0; i < ahead_.size(); ++i) {
-      State target;
-      if (!number(std::move(ahead_[i].target), hashes_ahead_[i], target)) return false;
-      row_ahead_.push_back({ahead_[i].label, target});
-    }
+    prefetch(ahead_);
+    if (!make_row(ahead_, 0, ahead_.transitions.size(), row_ahead_)) return false;
     if (row_of_.size() < states_.size()) row_of_.resize(states_.size(), no_row);
     row_of_[state.value] = static_cast<std::uint32_t>(rows_.size());
     rows_.add(row_ahead_);
@@ -365,21 +371,19 @@ class RefinementSearch {
   base::UniqueIndex further_index_;       // of these
   std::size_t visited_ = 0;               // pairs
 
-  std::vector<Transition<S>> successors_;  // of the pairs in work
-  std::vector<std::size_t> row_ends_;      // where those of each end
-  std::vector<std::uint64_t> hashes_;      // of the successors
-  std::vector<Edge> row_;                  // of the pair in work, if it was not known
-  std::span<const Edge> edges_;            // of the pair in work
-  std::vector<State> nodes_;               // that these lead to
-  std::vector<Label> offered_;             // by the pair in work
+  Successors successors_;              // of the pairs in work
+  std::vector<std::size_t> row_ends_;  // where those of each end
+  std::vector<Edge> row_;              // of the pair in work, if it was not known
+  std::span<const Edge> edges_;        // of the pair in work
+  std::vector<State> nodes_;           // that these lead to
+  std::vector<Label> offered_;         // by the pair in work
 
   std::vector<Divergence> divergence_;  // by state
   std::vector<Step> path_;
   std::vector<State> tau_targets_;
   Runs<Edge> rows_;                    // of states that a search has passed
   std::vector<std::uint32_t> row_of_;  // by state
-  std::vector<Transition<S>> ahead_;   // successors of the state in work of a search
-  std::vector<std::uint64_t> hashes_ahead_;
+  Successors ahead_;                   // of the state in work of a search
   std::vector<Edge> row_ahead_;
 
   RefineResult<S> result_;
