@@ -157,7 +157,7 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
       results[place++] = std::move(checked);
       changed.notify_one();
     }
-    compressions[group] = script.compressions_taken_as_identity();
+    compressions[group] = script.compressions_given_up();
   };
 
   const auto work = [&] {
@@ -188,9 +188,9 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
   }
 }
 
-std::vector<std::string> CheckRun::compressions_taken_as_identity() const {
+std::vector<std::string> CheckRun::compressions_given_up() const {
   std::vector<std::string> names = compressions_;
-  for (const std::string& name : script_->compressions_taken_as_identity()) {
+  for (const std::string& name : script_->compressions_given_up()) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
   std::ranges::sort(names);

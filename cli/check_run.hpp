@@ -63,7 +63,7 @@ class CheckRun {
   void check(std::span<const std::size_t> numbers, const CheckOptions& options,
              const std::function<bool(CheckedAssertion)>& consume);
   /// What `Script` says, of all scripts that were used.
-  std::vector<std::string> compressions_taken_as_identity() const;
+  std::vector<std::string> compressions_given_up() const;
 
  private:
   struct Copy {

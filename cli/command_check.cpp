@@ -6,6 +6,7 @@
 
 #include "check_report.hpp"
 #include "commands.hpp"
+#include "model.hpp"
 
 namespace perentie::cli {
 namespace {
@@ -102,11 +103,8 @@ ExitCode run(const Options& options, Console& console) {
     }
     return !interrupted().load();
   });
-  for (const std::string& compression : script->compressions_taken_as_identity()) {
-    console.note(
-        fmt::format("`{}` is not applied yet: no outcome depends on it, the number of "
-                    "states does",
-                    compression));
+  for (const std::string& compression : script->compressions_given_up()) {
+    console.note(compression_given_up(compression));
   }
   write_document(options, report, console);
   return code;

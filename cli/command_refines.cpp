@@ -67,8 +67,8 @@ class FileRun {
     check(*script);
     for (const semantics::ScriptPrint& print : script->prints()) add(value_of(*script, print));
     if (!is_framed() && !options_.is_text()) console_.result(document(report_));
-    for (const std::string& compression : script->compressions_taken_as_identity()) {
-      log(fmt::format("`{}` is not applied: the number of states differs from FDR's", compression));
+    for (const std::string& compression : script->compressions_given_up()) {
+      log(compression_given_up(compression));
     }
     return code_;
   }

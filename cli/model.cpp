@@ -101,6 +101,13 @@ std::unique_ptr<semantics::Script> load_script(const std::string& path, Input& i
   return script;
 }
 
+std::string compression_given_up(const std::string& compression) {
+  return fmt::format(
+      "`{}` was not applied to a process that is too large: no answer depends on it, the number of "
+      "states does",
+      compression);
+}
+
 std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string& process,
                                     const std::string& origin, const base::Limits& limits,
                                     Input& input, Console& console, ExitCode& code) {
@@ -119,11 +126,8 @@ std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string
   console.clear_progress();
   console.print(input.diagnostics, input.sources);
   if (found.failed && !found.limit) return std::nullopt;
-  for (const std::string& compression : script.compressions_taken_as_identity()) {
-    console.note(
-        fmt::format("`{}` is not applied yet: no answer depends on it, the number of "
-                    "states does",
-                    compression));
+  for (const std::string& compression : script.compressions_given_up()) {
+    console.note(compression_given_up(compression));
   }
   return ProcessLts{std::move(found.lts), std::move(found.term), std::move(found.structure),
                     found.limit};

@@ -63,4 +63,7 @@ std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string
                                     const std::string& origin, const base::Limits& limits,
                                     Input& input, Console& console, ExitCode& code);
 
+/// What to say of a compression that `Script::compressions_given_up` names.
+std::string compression_given_up(const std::string& compression);
+
 }  // namespace perentie::cli

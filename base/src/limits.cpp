@@ -29,10 +29,16 @@ std::optional<LimitReached> Budget::check_time() const {
   if (limits_.cancelled != nullptr && limits_.cancelled->load(std::memory_order_relaxed)) {
     return LimitReached{LimitKind::cancelled};
   }
-  if (limits_.timeout && Clock::now() - start_ > *limits_.timeout) {
+  if (limits_.timeout && Clock::now() - start_ + limits_.time_used > *limits_.timeout) {
     return LimitReached{LimitKind::time, static_cast<std::uint64_t>(limits_.timeout->count())};
   }
   return std::nullopt;
+}
+
+Limits Budget::rest() const {
+  Limits rest = limits_;
+  rest.time_used += std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start_);
+  return rest;
 }
 
 std::optional<LimitReached> Budget::check_states(std::uint64_t states) const {

@@ -13,6 +13,7 @@
 #include "perentie/lts/specifications.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 #include "perentie/semantics/process_system.hpp"
+#include "preserved_in_script.hpp"
 
 namespace perentie::semantics {
 namespace {
@@ -196,6 +197,7 @@ class Checker {
 
   // The models that FDR had until 2.94: V and R, and VD and RD with strict divergence.
   void check_beyond_failures(const parser::RefinementAssertion& claim) {
+    const PreservedInScript scope(script_, Preserved::bisimilarity);
     const auto specification = process(claim.specification);
     if (!specification) return;
     const auto implementation = process(claim.implementation);

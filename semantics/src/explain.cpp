@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "perentie/base/overload.hpp"
+#include "preserved_in_script.hpp"
 #include "replay.hpp"
 
 namespace perentie::semantics {
@@ -43,6 +44,8 @@ class Explainer {
     const auto process = script_.process(implementation_of(assertion_.assertion),
                                          assertion_.assertion.options.tau_priority, sink_);
     if (!process) return std::nullopt;
+    // Components are those of the processes themselves, not of what compressions make of them.
+    const PreservedInScript scope(script_, Preserved::identity);
     system_.emplace(script_.terms(*process, sink_));
     Run run;
     Ending ending;
@@ -90,6 +93,11 @@ class Explainer {
       }
     };
     auto found = find_run(*system_, search);
+    if (!found) {  // a compressed process may have other τ
+      std::erase(search.trace, lts::tau_name);
+      search.skips_tau = true;
+      found = find_run(*system_, search);
+    }
     if (!found) return false;
     run = std::move(*found);
     if (witness_.kind == Kind::event) {

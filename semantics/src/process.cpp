@@ -20,6 +20,7 @@ std::optional<OperandPlaces> process_operands(ProcKind kind) {
     case ProcKind::div:
     case ProcKind::chaos:
     case ProcKind::run:
+    case ProcKind::compressed_state:
     case ProcKind::opaque:
     case ProcKind::call:
       return std::nullopt;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "components.hpp"
+#include "compressor.hpp"
 #include "evaluate/machine.hpp"
 #include "lower/lower.hpp"
 #include "machine/compile.hpp"
@@ -39,12 +40,20 @@ struct Script::Impl {
   std::optional<TypeChecker> types;
   std::optional<Lowering> lowering;
   std::optional<Machine> machine;
+  std::optional<Compressor> compressor;
   LeafCompression leaf_compression = LeafCompression::sbisim;
+  Preserved preserved = Preserved::failures_divergences;
+  mutable std::shared_ptr<const lts::LabelNames> known_label_names;
 
   bool prepare(base::Diagnostics& diagnostics);
   std::shared_ptr<const lts::LabelNames> label_names() const;
+  CompressionRules compression_rules() { return {*compressor, preserved}; }
   MachineParts machine_parts() {
-    return {*machine, events, processes, [this] { return label_names(); },
+    return {*machine,
+            events,
+            processes,
+            compression_rules(),
+            [this] { return label_names(); },
             [this] { return machine->memory_bytes(); }};
   }
   void load_prelude(base::Diagnostics& diagnostics);
@@ -176,10 +185,15 @@ std::unique_ptr<Script> Script::load(base::FileId root, base::SourceMap& sources
   if (diagnostics.has_errors()) return nullptr;
   auto impl = std::make_unique<Impl>(sources, std::move(tree), options);
   if (!impl->prepare(diagnostics)) return nullptr;
-  return std::unique_ptr<Script>(new Script(std::move(impl)));
+  auto script = std::unique_ptr<Script>(new Script(std::move(impl)));
+  script->impl_->compressor.emplace(*script, script->impl_->processes);
+  return script;
 }
 
-void Script::set_limits(const base::Limits& limits) { impl_->machine->set_limits(limits); }
+void Script::set_limits(const base::Limits& limits) {
+  impl_->machine->set_limits(limits);
+  impl_->compressor->set_limits(limits);
+}
 
 void Script::show_calls(bool shown) { impl_->machine->show_calls(shown); }
 
@@ -339,9 +353,13 @@ std::vector<Script::TypedName> Script::types() const {
   return names;
 }
 
-std::vector<std::string> Script::compressions_taken_as_identity() const {
+void Script::set_preserved(Preserved preserved) { impl_->preserved = preserved; }
+
+Preserved Script::preserved() const { return impl_->preserved; }
+
+std::vector<std::string> Script::compressions_given_up() const {
   std::vector<std::string> names;
-  for (const Builtin builtin : impl_->machine->compressions_seen()) {
+  for (const Builtin builtin : impl_->compressor->given_up()) {
     names.emplace_back(info(builtin).name);
   }
   return names;
@@ -358,7 +376,8 @@ std::string Script::core_listing() const {
 struct TermSystem::Impl {
   Impl(Script::Impl& owner, base::Diagnostics& diagnostics)
       : script(owner),
-        rules(*owner.machine, owner.events, owner.processes, diagnostics),
+        rules(*owner.machine, owner.events, owner.processes, owner.compression_rules(),
+              diagnostics),
         components(owner.events, owner.processes, rules),
         sink(diagnostics) {}
 
@@ -403,7 +422,9 @@ std::shared_ptr<const lts::LabelNames> TermSystem::label_names() const {
   return impl_->script.label_names();
 }
 
+// Asked for after every exploration, and events are only ever added.
 std::shared_ptr<const lts::LabelNames> Script::Impl::label_names() const {
+  if (known_label_names && known_label_names->size() == events.size()) return known_label_names;
   const ShowContext context = machine->show_context();
   auto names = std::make_shared<lts::LabelNames>();
   names->emplace_back(lts::tau_name);
@@ -411,6 +432,7 @@ std::shared_ptr<const lts::LabelNames> Script::Impl::label_names() const {
   for (std::uint32_t i = 2; i < events.size(); ++i) {
     names->push_back(show_value(context, events.value(EventId{i})));
   }
+  known_label_names = names;
   return names;
 }
 

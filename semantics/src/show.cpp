@@ -352,6 +352,9 @@ class Printer {
       case ProcKind::compression:
         then({std::string(info(static_cast<Builtin>(words[0])).name) + "(", whole(words[1]), ")"});
         break;
+      case ProcKind::compressed_state:
+        then({whole(words[0]), fmt::format("#{}", words[2])});
+        break;
       case ProcKind::chase:
         then({"chase(", whole(words[0]), ")"});
         break;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <string>
 #include <unordered_set>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "perentie/base/check.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 
 namespace perentie::semantics {
@@ -32,6 +34,7 @@ bool is_worth_knowing(ProcKind kind) {
     case ProcKind::internal_choice:
     case ProcKind::chaos:
     case ProcKind::run:
+    case ProcKind::compressed_state:
       return false;
     default:
       return true;
@@ -155,10 +158,11 @@ bool StepRules::step(ProcId process, Steps& out) {
     return false;
   }
   const bool is_operand = depth_ > 1 && is_worth_knowing(processes_.kind(process));
-  const auto known = is_operand ? known_steps_.find(process.value) : known_steps_.end();
+  const Memory& memory = memory_[below_priority_ ? 1 : 0];
+  const auto known = is_operand ? memory.steps.find(process.value) : memory.steps.end();
   bool done = true;
-  if (known != known_steps_.end()) {
-    const auto first = step_pool_.begin() + known->second.first;
+  if (known != memory.steps.end()) {
+    const auto first = memory.pool.begin() + known->second.first;
     out.insert(out.end(), first, first + known->second.count);
   } else {
     const std::size_t first = out.size();
@@ -170,15 +174,16 @@ bool StepRules::step(ProcId process, Steps& out) {
 }
 
 void StepRules::remember_steps(ProcId process, std::span<const Step> steps) {
-  if (known_steps_.size() >= max_known_terms ||
-      step_pool_.size() + steps.size() > max_known_steps) {
-    known_steps_.clear();
-    step_pool_.clear();
+  Memory& memory = memory_[below_priority_ ? 1 : 0];
+  if (memory.steps.size() >= max_known_terms ||
+      memory.pool.size() + steps.size() > max_known_steps) {
+    memory.steps.clear();
+    memory.pool.clear();
   }
   if (steps.size() > max_known_steps) return;
-  known_steps_[process.value] = {static_cast<std::uint32_t>(step_pool_.size()),
+  memory.steps[process.value] = {static_cast<std::uint32_t>(memory.pool.size()),
                                  static_cast<std::uint32_t>(steps.size())};
-  step_pool_.insert(step_pool_.end(), steps.begin(), steps.end());
+  memory.pool.insert(memory.pool.end(), steps.begin(), steps.end());
 }
 
 bool StepRules::step_term(ProcId process, Steps& out) {
@@ -244,6 +249,8 @@ bool StepRules::step_term(ProcId process, Steps& out) {
       return prioritise_partial(process, out);
     case ProcKind::compression:
       return compression(process, out);
+    case ProcKind::compressed_state:
+      return compressed_state(process, out);
     case ProcKind::chase:
       return chase(process, out);
     case ProcKind::opaque:
@@ -334,11 +341,13 @@ std::optional<bool> StepRules::only_terminates(ProcId process) {
     case ProcKind::chase:
     case ProcKind::opaque:
     case ProcKind::compression:
+    case ProcKind::compressed_state:
       return false;
     default:
       break;
   }
-  if (const auto known = only_terminates_.find(process.value); known != only_terminates_.end()) {
+  auto& known_answers = memory_[below_priority_ ? 1 : 0].only_terminates;
+  if (const auto known = known_answers.find(process.value); known != known_answers.end()) {
     return known->second;
   }
   if (unfolding_.contains(process.value)) return false;  // its transitions are being computed
@@ -347,7 +356,7 @@ std::optional<bool> StepRules::only_terminates(ProcId process) {
   const bool only = !steps.empty() && std::all_of(steps.begin(), steps.end(), [](const Step& s) {
     return s.label == lts::tick;
   });
-  return only_terminates_[process.value] = only;
+  return known_answers[process.value] = only;
 }
 
 bool StepRules::interrupt(ProcId process, Steps& out) {
@@ -599,7 +608,7 @@ bool StepRules::prioritise(ProcId process, Steps& out) {
     return 0;
   };
   Steps steps;
-  if (!step(processes_.operand(process, 0), steps)) return false;
+  if (!step_below_priority(processes_.operand(process, 0), steps)) return false;
   std::size_t highest = sets + 1;
   for (const Step& s : steps) {
     if (const std::size_t r = rank(s.label); r != 0) highest = std::min(highest, r);
@@ -615,7 +624,7 @@ bool StepRules::prioritise_partial(ProcId process, Steps& out) {
   const EventSetId below_tau{processes_.word(process, 0)};
   const EventRelationId blocked_by{processes_.word(process, 1)};
   Steps steps;
-  if (!step(processes_.operand(process, 2), steps)) return false;
+  if (!step_below_priority(processes_.operand(process, 2), steps)) return false;
   const bool urgent = offers(steps, lts::tau) || offers(steps, lts::tick);
   for (const Step& s : steps) {
     if (urgent && events_.contains(below_tau, s.label)) continue;
@@ -629,11 +638,54 @@ bool StepRules::prioritise_partial(ProcId process, Steps& out) {
   return true;
 }
 
+bool StepRules::step_below_priority(ProcId process, Steps& out) {
+  const bool before = std::exchange(below_priority_, true);
+  const bool done = step(process, out);
+  below_priority_ = before;
+  return done;
+}
+
+// --- Compressions -------------------------------------------------------------------------------
+
+Preserved StepRules::preserved(bool below_priority) const {
+  return below_priority ? std::max(compressions_.preserved, Preserved::priority)
+                        : compressions_.preserved;
+}
+
+bool StepRules::is_applied(ProcId compression, bool below_priority) {
+  ProcessCompressor& compressor = compressions_.compressor;
+  return compressor.compressed(compression, preserved(below_priority)) != nullptr ||
+         compressor.limit();
+}
+
 bool StepRules::compression(ProcId process, Steps& out) {
+  ProcessCompressor& compressor = compressions_.compressor;
+  if (const auto* graph = compressor.compressed(process, preserved(below_priority_))) {
+    push(*graph, graph->lts.initial().value, out);
+    return true;
+  }
+  if ((limit_ = compressor.limit())) return false;
   Steps steps;
   if (!step(processes_.operand(process, 1), steps)) return false;
   for (const Step& s : steps) out.push_back({s.label, after(process, 1, s)});
   return true;
+}
+
+bool StepRules::compressed_state(ProcId process, Steps& out) {
+  const auto preserved = static_cast<Preserved>(processes_.word(process, 1));
+  const std::uint32_t state = processes_.word(process, 2);
+  const auto* graph =
+      compressions_.compressor.compressed(processes_.operand(process, 0), preserved);
+  PERENTIE_CHECK(graph != nullptr, "a state of a graph that is not there");
+  push(*graph, state, out);
+  return true;
+}
+
+void StepRules::push(const CompressedProcess& graph, std::uint32_t state, Steps& out) {
+  for (const lts::Edge& edge : graph.lts.edges(lts::State{state})) {
+    out.push_back({edge.label,
+                   edge.label == lts::tick ? processes_.stop() : graph.states[edge.target.value]});
+  }
 }
 
 // The first τ of each state is followed until there is none (4.6.1).

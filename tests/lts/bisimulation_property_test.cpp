@@ -114,6 +114,14 @@ RC_GTEST_PROP(BisimulationPropertyTest, CompressionsKeepTracesFailuresAndDiverge
   RC_ASSERT(test::wrong_in_compression(lts, std::get<GeneralisedLts>(normal(lts)), 5) == "");
 }
 
+RC_GTEST_PROP(BisimulationPropertyTest, PlainGraphsSayWhatGeneralisedOnesDo, ()) {
+  const Lts lts = *arbitrary_lts({.max_states = 7, .events = {"a", "b"}, .tau_weight = 2});
+  const Lts from_diamond = plain_lts(std::get<GeneralisedLts>(diamond(lts)));
+  RC_ASSERT(test::wrong_in_compression(lts, from_diamond, 5) == "");
+  const Lts from_normal = plain_lts(std::get<GeneralisedLts>(normal(lts)));
+  RC_ASSERT(test::wrong_in_compression(lts, from_normal, 5) == "");
+}
+
 RC_GTEST_PROP(BisimulationPropertyTest, CompressionsDoNotEnlarge, ()) {
   const Lts lts = *arbitrary_lts(tau_rich);
   const std::size_t strong = strong_bisimulation(lts).lts.state_count();

@@ -16,7 +16,7 @@ namespace {
 
 const char* const definitions = R"(
 external prioritise, prioritisepo
-transparent normal, chase
+transparent normal, chase, explicate
 channel a, b, c, d, e
 P = a -> b -> P
 Q = a -> Q [] c -> SKIP
@@ -54,7 +54,9 @@ TEST(LazyMachineTest, OperatorsThatStayInPlaceAreOneFormat) {
   expect_same("(P ||| Q) |\\ {a}");
   expect_same("prioritise(P ||| Q, <{a}, {b, c}>)");
   expect_same("prioritisepo(P ||| Q, {a, b, c}, {(a, c), (b, c)}, {a})");
-  expect_same("normal(P ||| Q)");
+  expect_same("explicate(P ||| Q)");
+  expect_same("normal(P ||| Q)", 0);
+  expect_same("prioritise(normal(P ||| Q), <{a}, {b, c}>)");
 }
 
 TEST(LazyMachineTest, SequencesOfParallels) {
@@ -66,7 +68,8 @@ TEST(LazyMachineTest, SequencesOfParallels) {
   expect_same("((a -> SKIP) ||| SKIP) ; P");
   expect_same("((a -> SKIP) [|{a}|] (a -> SKIP)) ; b -> SKIP");
   expect_same("((a -> SKIP) ||| (SKIP [] SKIP)) ; b -> SKIP");
-  expect_same("normal((a -> SKIP) ||| SKIP) ; b -> SKIP");
+  expect_same("explicate((a -> SKIP) ||| SKIP) ; b -> SKIP");
+  expect_same("normal((a -> SKIP) ||| SKIP) ; b -> SKIP", 0);
   expect_same("(((a -> SKIP) ||| SKIP) \\ {a}) ; b -> SKIP");
   expect_same("(((a -> SKIP) ||| SKIP) [> (b -> SKIP)) ; c -> SKIP");
 }

@@ -55,23 +55,5 @@ TEST(PriorityTest, PartialOrders) {
                       "0 a 1; 0 c 1; 0 tau 1; 1", import));
 }
 
-TEST(PriorityTest, CompressionsAreTheIdentity) {
-  const std::string compressions[] = {"explicate", "lazyenumerate", "diamond",
-                                      "normal",    "lazynorm",      "sbisim",
-                                      "dbisim",    "wbisim",        "tau_loop_factor"};
-  for (const std::string& name : compressions) {
-    SCOPED_TRACE(name);
-    EXPECT_TRUE(
-        same_lts(name + "(P)", "P", "transparent " + name + "\nP = a -> P [> (b -> SKIP |~| DIV)"));
-  }
-}
-
-TEST(PriorityTest, CompressionsAreNamedToTheCaller) {
-  TestScript script("channel a\ntransparent normal, sbisim\nP = normal(a -> STOP)\nQ = sbisim(P)");
-  EXPECT_TRUE(script.script().compressions_taken_as_identity().empty());
-  ASSERT_TRUE(script.explore("P"));
-  EXPECT_EQ(script.script().compressions_taken_as_identity(), std::vector<std::string>{"normal"});
-}
-
 }  // namespace
 }  // namespace perentie::semantics

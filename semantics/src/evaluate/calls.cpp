@@ -198,9 +198,6 @@ void Machine::apply_builtin(Builtin builtin, std::uint32_t operand_count,
     return replace(operand_count, remember_origin(processes_.opaque(builtin, arguments)));
   }
   if (info(builtin).kind == BuiltinKind::process_function) {  // the compressions
-    if (std::find(compressions_.begin(), compressions_.end(), builtin) == compressions_.end()) {
-      compressions_.push_back(builtin);
-    }
     return replace(operand_count,
                    processes_.unary(ProcKind::compression, static_cast<std::uint32_t>(builtin),
                                     process_at(0)));

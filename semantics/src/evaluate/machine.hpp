@@ -59,7 +59,6 @@ class Machine final : public FunctionNames, public CallUnfolder {
   ProcessBuilder& builder() { return builder_; }
   ShowContext show_context() const { return {values_, events_, processes_, resolution_, *this}; }
   /// Warnings that were noticed while evaluating, each once.
-  const std::vector<Builtin>& compressions_seen() const { return compressions_; }
 
  private:
   // --- Control ----------------------------------------------------------------------------------
@@ -244,7 +243,6 @@ class Machine final : public FunctionNames, public CallUnfolder {
   std::unordered_map<std::uint32_t, base::Span> origins_;
   std::optional<base::Span> unfolding_origin_;            // of the call that is being unfolded
   std::unordered_set<std::uint32_t> fields_in_progress_;  // by symbol
-  std::vector<Builtin> compressions_;
 
   base::Limits limits_;
   std::optional<base::Budget> budget_;

@@ -25,7 +25,7 @@ class Compiler {
       : parts_(parts),
         options_(options),
         budget_(options.limits),
-        steps_(parts.calls, parts.events, parts.processes, unheard_),
+        steps_(parts.calls, parts.events, parts.processes, parts.compressions, unheard_),
         builder_(parts.events, parts.processes, options.max_rules) {}
 
   MachineCompilation run(ProcId process) {
@@ -66,7 +66,6 @@ class Compiler {
       case ProcKind::hide:
       case ProcKind::project:
       case ProcKind::rename:
-      case ProcKind::compression:
         break;
       default:
         joins_termination_ = true;

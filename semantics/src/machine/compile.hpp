@@ -21,6 +21,7 @@ struct MachineParts {
   CallUnfolder& calls;
   const EventTable& events;
   ProcStore& processes;
+  CompressionRules compressions;
   /// Asked for when all leaves are explored.
   std::function<std::shared_ptr<const lts::LabelNames>()> label_names;
   /// What values and terms hold.

@@ -1,6 +1,7 @@
 #include "machine/formats.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace perentie::semantics {
 namespace {
@@ -77,36 +78,49 @@ const EventBits* FormatTable::bits(EventSetId set) {
   return &bits_.emplace(set, EventBits(events_, set)).first->second;
 }
 
-bool FormatTable::is_composite(ProcId term) {
+FormatTable::Place FormatTable::Place::below(ProcKind kind) const {
+  const bool is_priority = kind == ProcKind::prioritise || kind == ProcKind::prioritise_partial;
+  return {depth + 1, is_settled && settles_operands(kind), is_below_priority || is_priority};
+}
+
+bool FormatTable::is_composite(ProcId term, bool is_below_priority) {
   enum : std::uint8_t { unknown, no, yes };
-  if (term.value < known_.size() && known_[term.value] != unknown) return known_[term.value] == yes;
+  auto& known = known_[is_below_priority ? 1 : 0];
+  if (term.value < known.size() && known[term.value] != unknown) return known[term.value] == yes;
   bool found = false;
-  std::vector<ProcId> stack{term};
+  std::vector<std::pair<ProcId, bool>> stack{{term, is_below_priority}};
   while (!stack.empty() && !found) {
-    const ProcId next = stack.back();
+    const auto [next, below] = stack.back();
     stack.pop_back();
     const ProcKind kind = processes_.kind(next);
     found = is_parallel(kind);
+    if (kind == ProcKind::compression && rules_.is_applied(next, below)) continue;
+    const bool is_priority = kind == ProcKind::prioritise || kind == ProcKind::prioritise_partial;
     const auto words = processes_.words(next);
     const Running running = running_operands(kind, words.size());
     for (std::size_t i = running.first; i < running.end; i += running.stride) {
-      stack.push_back(ProcId{words[i]});
+      stack.emplace_back(ProcId{words[i]}, below || is_priority);
     }
   }
-  if (term.value >= known_.size()) known_.resize(processes_.size());
-  known_[term.value] = found ? yes : no;
+  if (term.value >= known.size()) known.resize(processes_.size());
+  known[term.value] = found ? yes : no;
   return found;
 }
 
+bool FormatTable::is_leaf(ProcId term, const Place& place) {
+  return place.depth >= max_depth || !is_composite(term, place.is_below_priority);
+}
+
 // The key has the operators in preorder.
-void FormatTable::write_key(ProcId term, std::uint32_t depth, std::vector<ProcId>& leaves) {
-  if (depth >= max_depth || !is_composite(term)) {
+void FormatTable::write_key(ProcId term, const Place& place, std::vector<ProcId>& leaves) {
+  if (is_leaf(term, place)) {
     key_.push_back(leaf_mark);
     leaves.push_back(term);
     return;
   }
   const ProcKind kind = processes_.kind(term);
-  const auto words = processes_.words(term);
+  const auto stored = processes_.words(term);
+  const std::vector<std::uint32_t> words(stored.begin(), stored.end());  // compressions make terms
   const Running running = running_operands(kind, words.size());
   key_.push_back(static_cast<std::uint32_t>(kind));
   key_.push_back(static_cast<std::uint32_t>(words.size()));
@@ -114,32 +128,33 @@ void FormatTable::write_key(ProcId term, std::uint32_t depth, std::vector<ProcId
   key_.insert(key_.end(), words.begin(), words.end());
   for (std::size_t i = running.first; i < running.end; i += running.stride) {
     key_[first + i] = leaf_mark;
-    write_key(ProcId{words[i]}, depth + 1, leaves);
+    write_key(ProcId{words[i]}, place.below(kind), leaves);
   }
 }
 
 FormatId FormatTable::split(ProcId term, std::vector<ProcId>& leaves) {
   key_.clear();
-  write_key(term, 0, leaves);
+  write_key(term, {}, leaves);
   const FormatId id{keys_.intern(0, key_)};
-  if (id.value == formats_.size()) add_node(formats_.emplace_back(), term, 0, true);
+  if (id.value == formats_.size()) add_node(formats_.emplace_back(), term, {});
   return id;
 }
 
-std::uint32_t FormatTable::add_node(Format& format, ProcId term, std::uint32_t depth,
-                                    bool is_settled) {
+std::uint32_t FormatTable::add_node(Format& format, ProcId term, const Place& place) {
   const auto number = static_cast<std::uint32_t>(format.nodes.size());
   format.nodes.emplace_back();
-  if (depth >= max_depth || !is_composite(term)) {
+  if (is_leaf(term, place)) {
     FormatNode& node = format.nodes[number];
     node.is_leaf = true;
-    node.is_settled = is_settled;
+    node.is_settled = place.is_settled;
+    node.is_below_priority = place.is_below_priority;
     node.first_leaf = format.leaf_count++;
     node.end_leaf = format.leaf_count;
     return number;
   }
   FormatNode node;
   node.first_leaf = format.leaf_count;
+  node.is_below_priority = place.is_below_priority;
   node.kind = processes_.kind(term);
   const auto stored = processes_.words(term);
   node.words.assign(stored.begin(), stored.end());
@@ -159,11 +174,11 @@ std::uint32_t FormatTable::add_node(Format& format, ProcId term, std::uint32_t d
   node.ends_with_leaves = is_parallel(node.kind) || node.kind == ProcKind::hide ||
                           node.kind == ProcKind::project || node.kind == ProcKind::rename;
   const Running running = running_operands(node.kind, node.words.size());
-  const bool settles = is_settled && settles_operands(node.kind);
+  const Place below = place.below(node.kind);
   for (std::size_t i = running.first; i < running.end; i += running.stride) {
     const EventBits* alphabet = alphabetised ? bits(EventSetId{node.words[i - 1]}) : nullptr;
-    node.operands.push_back({add_node(format, ProcId{node.words[i]}, depth + 1, settles),
-                             static_cast<std::uint32_t>(i), alphabet});
+    node.operands.push_back(
+        {add_node(format, ProcId{node.words[i]}, below), static_cast<std::uint32_t>(i), alphabet});
     const FormatNode& operand = format.nodes[node.operands.back().node];
     node.ends_with_leaves = node.ends_with_leaves && (operand.is_leaf || operand.ends_with_leaves);
   }

@@ -16,6 +16,7 @@
 #include "perentie/base/term_table.hpp"
 #include "perentie/semantics/event.hpp"
 #include "perentie/semantics/process.hpp"
+#include "perentie/semantics/step.hpp"
 
 namespace perentie::semantics {
 
@@ -44,6 +45,7 @@ struct FormatNode {
   bool is_leaf = false;
   /// Of a leaf: all operators around it stay in place, so the names that it becomes are followed.
   bool is_settled = false;
+  bool is_below_priority = false;  ///< some operator around it is a `prioritise`
   /// The leaves below: [first_leaf, end_leaf).
   std::uint32_t first_leaf = 0;
   std::uint32_t end_leaf = 0;
@@ -61,10 +63,10 @@ struct Format {
 
 class FormatTable {
  public:
-  FormatTable(const EventTable& events, ProcStore& processes)
-      : events_(events), processes_(processes) {}
+  FormatTable(const EventTable& events, ProcStore& processes, StepRules& rules)
+      : events_(events), processes_(processes), rules_(rules) {}
 
-  bool is_composite(ProcId term);
+  bool is_composite(ProcId term, bool is_below_priority);
   /// The format of a composite term; its leaves are appended to `leaves`.
   FormatId split(ProcId term, std::vector<ProcId>& leaves);
   const Format& operator[](FormatId id) const { return formats_[id.value]; }
@@ -74,16 +76,27 @@ class FormatTable {
   ProcId join(const Format& format, std::uint32_t node, std::span<const ProcId> leaves);
 
  private:
-  void write_key(ProcId term, std::uint32_t depth, std::vector<ProcId>& leaves);
-  std::uint32_t add_node(Format& format, ProcId term, std::uint32_t depth, bool is_settled);
+  // Where a term stands in a format.
+  struct Place {
+    std::uint32_t depth = 0;
+    bool is_settled = true;
+    bool is_below_priority = false;
+
+    Place below(ProcKind kind) const;
+  };
+
+  bool is_leaf(ProcId term, const Place& place);
+  void write_key(ProcId term, const Place& place, std::vector<ProcId>& leaves);
+  std::uint32_t add_node(Format& format, ProcId term, const Place& place);
   const EventBits* bits(EventSetId set);
 
   const EventTable& events_;
   ProcStore& processes_;
+  StepRules& rules_;
   std::deque<Format> formats_;
-  base::TermTable keys_;             // of formats, by id
-  std::vector<std::uint32_t> key_;   // scratch
-  std::vector<std::uint8_t> known_;  // by term: whether it is composite
+  base::TermTable keys_;                // of formats, by id
+  std::vector<std::uint32_t> key_;      // scratch
+  std::vector<std::uint8_t> known_[2];  // by term: whether it is composite, below priority or not
   std::map<EventSetId, EventBits> bits_;
 };
 

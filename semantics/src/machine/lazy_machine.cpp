@@ -22,14 +22,14 @@ std::span<const std::uint32_t> as_words(std::span<const ProcId> terms) {
 struct LazyMachine::Impl {
   Impl(const MachineParts& machine_parts, base::Diagnostics& diagnostics)
       : parts(machine_parts),
-        rules(parts.calls, parts.events, parts.processes, diagnostics),
-        formats(parts.events, parts.processes),
+        rules(parts.calls, parts.events, parts.processes, parts.compressions, diagnostics),
+        formats(parts.events, parts.processes, rules),
         moves(parts.events, parts.processes, formats, rules) {}
 
   // The state of a term that is settled.
   State state_of(ProcId term) {
     PERENTIE_CHECK(term.value < composite_bit, "there are too many process terms");
-    if (!formats.is_composite(term)) return term.value;
+    if (!formats.is_composite(term, false)) return term.value;
     leaves.assign(1, ProcId{});
     const FormatId format = formats.split(term, leaves);
     leaves[0] = ProcId{format.value};

@@ -227,7 +227,9 @@ bool MoveRules::sequential(const FormatNode& node) {
     if (move.label == lts::tick) {
       moves_[m] = {lts::tau, right};
     } else if (move.term) {
+      rules_.set_below_priority(node.is_below_priority);
       const auto target = rules_.sequential_target(move.term, right);
+      rules_.set_below_priority(false);
       if (!target) return false;
       moves_[m] = {move.label, *target};
     } else {
@@ -244,7 +246,7 @@ std::optional<bool> MoveRules::only_terminates_after(std::uint32_t number, const
   if (node.kind == ProcKind::compression || node.kind == ProcKind::sliding_choice) return false;
   if (node.ends_with_leaves) {  // mostly answers: a leaf that has just moved does not terminate
     for (const LeafChange& change : changes(move)) {
-      const auto run = steps_of_leaf(change.term, false);
+      const auto run = steps_of_leaf(change.term, false, node.is_below_priority);
       if (!run) return std::nullopt;
       if (!run->has_tick) return false;
     }

@@ -129,26 +129,30 @@ bool MoveRules::apply(const FormatNode& node) {
 
 // --- Leaves -------------------------------------------------------------------------------------
 
-std::optional<MoveRules::Run> MoveRules::steps_of_leaf(ProcId term, bool is_settled) {
-  auto& known = known_steps_[is_settled ? 1 : 0];
+std::optional<MoveRules::Run> MoveRules::steps_of_leaf(ProcId term, bool is_settled,
+                                                       bool is_below_priority) {
+  auto& known = known_steps_[(is_settled ? 1 : 0) + (is_below_priority ? 2 : 0)];
   const auto found = known.find(term.value);
   if (found != known.end()) return found->second;
   StepRules::Steps steps;
+  rules_.set_below_priority(is_below_priority);
   const bool done =
       is_settled ? rules_.successors(term, steps) : rules_.unsettled_successors(term, steps);
+  rules_.set_below_priority(false);
   if (!done) return std::nullopt;
   Run run{static_cast<std::uint32_t>(step_pool_.size()), static_cast<std::uint32_t>(steps.size()),
           false};
   for (const StepRules::Step& step : steps) {
     run.has_tick = run.has_tick || step.label == lts::tick;
-    step_pool_.push_back({step.label, step.target, formats_.is_composite(step.target)});
+    step_pool_.push_back(
+        {step.label, step.target, formats_.is_composite(step.target, is_below_priority)});
   }
   known.emplace(term.value, run);
   return run;
 }
 
 bool MoveRules::leaf(const FormatNode& node) {
-  const auto run = steps_of_leaf(leaves_[node.first_leaf], node.is_settled);
+  const auto run = steps_of_leaf(leaves_[node.first_leaf], node.is_settled, node.is_below_priority);
   if (!run) return false;
   work_ += run->count;
   for (std::uint32_t i = run->first; i < run->first + run->count; ++i) {

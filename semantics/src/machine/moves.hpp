@@ -43,7 +43,11 @@ class MoveRules {
   }
   std::size_t memory_bytes() const;
   /// The leaf terms whose steps are known.
-  std::size_t leaf_states() const { return known_steps_[0].size() + known_steps_[1].size(); }
+  std::size_t leaf_states() const {
+    std::size_t count = 0;
+    for (const auto& known : known_steps_) count += known.size();
+    return count;
+  }
 
  private:
   using Operand = FormatNode::Operand;
@@ -97,7 +101,7 @@ class MoveRules {
   void recall(const Run& run);
   void remember(std::uint32_t key, std::size_t begin);
 
-  std::optional<Run> steps_of_leaf(ProcId term, bool is_settled);
+  std::optional<Run> steps_of_leaf(ProcId term, bool is_settled, bool is_below_priority);
   bool operands(const FormatNode& node, std::vector<Range>& ranges);
   // Drops the moves of the operands, which those of the node follow.
   void keep_from(std::size_t begin, std::size_t kept);
@@ -138,7 +142,8 @@ class MoveRules {
   std::vector<std::uint32_t> chosen_;  // scratch
   std::vector<Move> chosen_moves_;     // scratch
   std::vector<LeafStep> step_pool_;
-  std::unordered_map<std::uint32_t, Run> known_steps_[2];  // by leaf term; raw and settled
+  // By leaf term; settled or not, below priority or not.
+  std::unordered_map<std::uint32_t, Run> known_steps_[4];
 
   std::uint64_t work_ = 0;                    // moves of leaves that were looked at
   std::unordered_set<std::uint64_t> costly_;  // nodes: format and number

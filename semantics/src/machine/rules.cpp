@@ -14,7 +14,6 @@ bool is_compiled_operator(ProcKind kind) {
     case ProcKind::hide:
     case ProcKind::project:
     case ProcKind::rename:
-    case ProcKind::compression:
       return true;
     default:
       return false;
@@ -203,10 +202,8 @@ std::optional<RuleBuilder::Rules> RuleBuilder::combine(ProcId term, std::vector<
       }
       return std::move(operands[0]);
     }
-    case ProcKind::rename:
+    default:
       return renamed(EventRelationId{processes_.word(term, 0)}, operands[0]);
-    default:  // a compression, which is the identity
-      return std::move(operands[0]);
   }
 }
 

@@ -26,6 +26,7 @@ struct Limits {
   std::optional<std::uint64_t> max_states = {};
   std::optional<std::uint64_t> max_memory_bytes = {};
   std::optional<std::chrono::milliseconds> timeout = {};
+  std::chrono::milliseconds time_used = {};  ///< of `timeout`, before the run began
   const std::atomic<bool>* cancelled = nullptr;  ///< set from a signal handler or another thread
 };
 
@@ -43,6 +44,8 @@ class Budget {
     return std::chrono::duration<double>(Clock::now() - start_).count();
   }
   const Limits& limits() const { return limits_; }
+  /// The limits of a step that begins now: what is left of the time.
+  Limits rest() const;
 
  private:
   using Clock = std::chrono::steady_clock;

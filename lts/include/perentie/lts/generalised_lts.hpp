@@ -19,4 +19,9 @@ struct GeneralisedLts {
   Acceptances acceptances;
 };
 
+/// An Lts with the same traces, failures and divergences, in which edges say everything: a state
+/// that diverges has a τ to itself, and one that may refuse some of its labels has for each
+/// acceptance a τ to a stable state that offers just that.
+Lts plain_lts(const GeneralisedLts& generalised);
+
 }  // namespace perentie::lts

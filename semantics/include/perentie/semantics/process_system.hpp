@@ -7,7 +7,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -97,11 +96,7 @@ auto with_process_system(Script& script, ProcId process, const lts::ExploreOptio
   const base::Budget budget(options.limits);
   const auto rest = [&](std::uint64_t max_states) {
     lts::ExploreOptions left = options;
-    if (left.limits.timeout) {
-      const auto used = static_cast<std::int64_t>(budget.elapsed_seconds() * 1000.0);
-      left.limits.timeout = std::max(*left.limits.timeout - std::chrono::milliseconds(used),
-                                     std::chrono::milliseconds(1));
-    }
+    left.limits = budget.rest();
     if (max_states != any) {
       left.limits.max_states = std::min(left.limits.max_states.value_or(max_states), max_states);
     }

@@ -29,6 +29,7 @@ class LazyMachine;
 class TermSystem;
 struct CompiledMachine;
 enum class LeafCompression : std::uint8_t;
+enum class Preserved : std::uint8_t;
 struct MachineCompilation;
 struct MachineOptions;
 
@@ -91,6 +92,10 @@ class Script {
   /// is `sbisim` unless it is set.
   void set_leaf_compression(LeafCompression compression);
   LeafCompression leaf_compression() const;
+  /// What the compressions of later systems must preserve; traces, failures and divergences unless
+  /// it is set. Those that do not are taken as the identity.
+  void set_preserved(Preserved preserved);
+  Preserved preserved() const;
 
   /// The names of all events that were used so far, by label.
   std::shared_ptr<const lts::LabelNames> label_names() const;
@@ -114,8 +119,9 @@ class Script {
   };
   std::vector<TypedName> types() const;
 
-  /// The compressions that were evaluated so far: the step rules take them as the identity.
-  std::vector<std::string> compressions_taken_as_identity() const;
+  /// The compressions that were not applied to some process because it, or what they make of it,
+  /// is too large; no result depends on that, the number of states does.
+  std::vector<std::string> compressions_given_up() const;
 
   const parser::SyntaxTree& tree() const;
   /// The core code as text, for `dump --phase core`.

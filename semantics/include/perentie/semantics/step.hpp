@@ -3,8 +3,8 @@
 // These rules are the reference for everything faster: a term's transitions are computed from those
 // of its operands, and a named call is unfolded to its body. ✓ is treated as FDR treats it: an
 // ordinary label that every parallel operator synchronises, after which nothing happens
-// (4.1.2, 4.1.3). The compressions that preserve every semantic model (`normal`, `sbisim`, ..) are
-// taken as the identity.
+// (4.1.2, 4.1.3). A compressed process has the transitions of its compressed graph, or those of the
+// process itself where the compression cannot be applied (`compression.hpp`).
 #pragma once
 
 #include <cstdint>
@@ -18,6 +18,7 @@
 #include "perentie/base/diagnostic.hpp"
 #include "perentie/base/limits.hpp"
 #include "perentie/lts/transition_system.hpp"
+#include "perentie/semantics/compression.hpp"
 #include "perentie/semantics/process.hpp"
 
 namespace perentie::semantics {
@@ -36,14 +37,24 @@ class CallUnfolder {
   virtual std::optional<base::Span> origin(ProcId term) const = 0;
 };
 
+/// How the step rules take compressions.
+struct CompressionRules {
+  ProcessCompressor& compressor;
+  Preserved preserved;  ///< outside of `prioritise`
+};
+
 class StepRules {
  public:
   using Step = lts::Transition<ProcId>;
   using Steps = std::vector<Step>;
 
   StepRules(CallUnfolder& calls, const EventTable& events, ProcStore& processes,
-            base::Diagnostics& diagnostics)
-      : calls_(calls), events_(events), processes_(processes), diagnostics_(diagnostics) {}
+            CompressionRules compressions, base::Diagnostics& diagnostics)
+      : calls_(calls),
+        events_(events),
+        processes_(processes),
+        compressions_(compressions),
+        diagnostics_(diagnostics) {}
 
   /// The state that a term is: names that only stand for other names or for operators that stay in
   /// place (parallels, hiding, renaming, ..) are no states of their own (6.2.2). Nothing on
@@ -57,6 +68,12 @@ class StepRules {
   /// The term of `left ; right` as the target of a step: `right` if `left` can only terminate.
   std::optional<ProcId> sequential_target(ProcId left, ProcId right);
   std::optional<base::LimitReached> limit() const { return limit_; }
+
+  /// Whether the terms that come next stand below `prioritise`, which can tell more processes
+  /// apart.
+  void set_below_priority(bool below) { below_priority_ = below; }
+  /// Whether a compression is its graph there, or a budget ran out; otherwise it is the identity.
+  bool is_applied(ProcId compression, bool below_priority);
 
  private:
   std::optional<ProcId> settle(ProcId process);
@@ -80,6 +97,10 @@ class StepRules {
   bool prioritise(ProcId process, Steps& out);
   bool prioritise_partial(ProcId process, Steps& out);
   bool compression(ProcId process, Steps& out);
+  bool compressed_state(ProcId process, Steps& out);
+  void push(const CompressedProcess& graph, std::uint32_t state, Steps& out);
+  Preserved preserved(bool below_priority) const;
+  bool step_below_priority(ProcId process, Steps& out);
   bool chase(ProcId process, Steps& out);
   bool refuse_opaque(ProcId process);
   void report(const base::DiagnosticCode& code, ProcId term, std::string message);
@@ -94,19 +115,24 @@ class StepRules {
   CallUnfolder& calls_;
   const EventTable& events_;
   ProcStore& processes_;
+  CompressionRules compressions_;
   base::Diagnostics& diagnostics_;
+  bool below_priority_ = false;
   std::uint32_t depth_ = 0;
-  std::unordered_set<std::uint32_t> unfolding_;              // calls that are being stepped
-  std::unordered_map<std::uint32_t, bool> only_terminates_;  // by process
-  std::unordered_map<std::uint32_t, ProcId> settled_;        // by process
-  // What operands of earlier states did, as most states differ from another in one operand. Both
-  // maps are bounded and emptied when they are full.
+  std::unordered_set<std::uint32_t> unfolding_;        // calls that are being stepped
+  std::unordered_map<std::uint32_t, ProcId> settled_;  // by process
+  // What operands of earlier states did, as most states differ from another in one operand. All
+  // maps of steps are bounded and emptied when they are full.
   struct StepRun {
     std::uint32_t first;
     std::uint32_t count;
   };
-  std::unordered_map<std::uint32_t, StepRun> known_steps_;  // by operand, of step_pool_
-  Steps step_pool_;
+  struct Memory {
+    std::unordered_map<std::uint32_t, StepRun> steps;         // by operand, of pool
+    std::unordered_map<std::uint32_t, bool> only_terminates;  // by process
+    Steps pool;
+  };
+  Memory memory_[2];                                            // the second below `prioritise`
   std::unordered_map<std::uint32_t, ProcId> settled_operands_;  // by process
   std::optional<base::LimitReached> limit_;
 };

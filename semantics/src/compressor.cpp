@@ -1,0 +1,138 @@
+#include "compressor.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "perentie/lts/compressions.hpp"
+#include "perentie/lts/weak_bisimulation.hpp"
+#include "perentie/semantics/process_system.hpp"
+#include "preserved_in_script.hpp"
+
+namespace perentie::semantics {
+namespace {
+
+// Larger processes are not compressed: they may be small where they are used. After so many states
+// of such processes no more are tried.
+constexpr std::uint64_t max_states = 10'000'000;
+// Compressions in compressions: a bound on recursion; what lies deeper is not compressed.
+constexpr std::uint32_t max_nesting = 100;
+
+using Compression = std::variant<lts::Lts, base::LimitReached>;
+
+Compression plain(lts::QuotientResult result) {
+  if (const auto* limit = std::get_if<base::LimitReached>(&result)) return *limit;
+  return std::get<lts::Quotient>(std::move(result)).lts;
+}
+
+Compression plain(const lts::GeneralisedResult& result) {
+  if (const auto* limit = std::get_if<base::LimitReached>(&result)) return *limit;
+  return lts::plain_lts(std::get<lts::GeneralisedLts>(result));
+}
+
+Compression compress_graph(const lts::Lts& lts, Builtin compression, const base::Limits& limits) {
+  switch (compression) {
+    case Builtin::sbisim:
+      return lts::strong_bisimulation(lts).lts;
+    case Builtin::dbisim:
+      return plain(lts::delay_bisimulation(lts, limits));
+    case Builtin::wbisim:
+      return plain(lts::weak_bisimulation(lts, limits));
+    case Builtin::tau_loop_factor:
+      return lts::tau_loop_factor(lts).lts;
+    case Builtin::diamond:
+      return plain(lts::diamond(lts, limits));
+    default:
+      return plain(lts::normal(lts, limits));
+  }
+}
+
+}  // namespace
+
+bool preserves(Builtin compression, Preserved preserved) {
+  switch (compression) {
+    case Builtin::sbisim:
+      return preserved <= Preserved::bisimilarity;
+    case Builtin::dbisim:
+    case Builtin::wbisim:
+      return preserved <= Preserved::priority;
+    case Builtin::tau_loop_factor:
+    case Builtin::diamond:
+    case Builtin::normal:
+      return preserved == Preserved::failures_divergences;
+    default:
+      return false;
+  }
+}
+
+void Compressor::set_limits(const base::Limits& limits) {
+  budget_ = base::Budget(limits);
+  states_in_vain_ = 0;
+}
+
+const CompressedProcess* Compressor::compressed(ProcId term, Preserved preserved) {
+  limit_.reset();
+  if (!preserves(static_cast<Builtin>(processes_.word(term, 0)), preserved)) return nullptr;
+  const auto [place, is_new] = known_.try_emplace(Key{term.value, preserved});
+  Known& known = place->second;
+  if (is_new) {
+    ++nesting_;
+    if (nesting_ <= max_nesting) known.process = compress(term, preserved);
+    --nesting_;
+    known.is_in_work = false;
+    if (limit_) {
+      known_.erase(place);
+      return nullptr;
+    }
+  } else if (known.is_in_work) {
+    // Compressed inside of itself: there is no end to it, and no graph, nor of what comes next.
+    limit_ = {base::LimitKind::depth, nesting_};
+    states_in_vain_ = max_states + 1;
+  }
+  return known.process ? &*known.process : nullptr;
+}
+
+std::optional<CompressedProcess> Compressor::compress(ProcId term, Preserved preserved) {
+  const auto builtin = static_cast<Builtin>(processes_.word(term, 0));
+  const auto give_up = [&](const std::optional<base::LimitReached>& reached) {
+    const bool is_size = reached && (reached->kind == base::LimitKind::states ||
+                                     reached->kind == base::LimitKind::depth);
+    if (is_size) given_up_.insert(builtin);
+    limit_ = is_size ? std::nullopt : reached;
+    return std::nullopt;
+  };
+  base::Limits limits = budget_.rest();
+  const std::uint64_t most = std::min(limits.max_states.value_or(max_states), max_states);
+  if (states_in_vain_ > most) return give_up(base::LimitReached{base::LimitKind::states, most});
+  limits.max_states = most;
+  const PreservedInScript scope(script_, preserved);
+  base::Diagnostics unheard;  // the step rules say it again if it matters
+  const auto found =
+      explore_process(script_, processes_.operand(term, 1), {.limits = limits}, unheard);
+  if (!found.complete) {
+    states_in_vain_ += found.lts.state_count();
+    return give_up(found.limit);
+  }
+  Compression small = compress_graph(found.lts, builtin, limits);
+  if (const auto* reached = std::get_if<base::LimitReached>(&small)) return give_up(*reached);
+  return with_terms(std::get<lts::Lts>(std::move(small)), term, preserved);
+}
+
+// A state without transitions is STOP, whatever leads to it; so is what ✓ leads to (4.1.2).
+CompressedProcess Compressor::with_terms(lts::Lts lts, ProcId term, Preserved preserved) {
+  CompressedProcess result{std::move(lts), {}};
+  const auto count = static_cast<std::uint32_t>(result.lts.state_count());
+  result.states.reserve(count);
+  for (std::uint32_t s = 0; s < count; ++s) {
+    if (lts::State{s} == result.lts.initial()) {
+      result.states.push_back(term);
+    } else if (result.lts.edges(lts::State{s}).empty()) {
+      result.states.push_back(processes_.stop());
+    } else {
+      const std::uint32_t words[] = {term.value, static_cast<std::uint32_t>(preserved), s};
+      result.states.push_back(processes_.make(ProcKind::compressed_state, words));
+    }
+  }
+  return result;
+}
+
+}  // namespace perentie::semantics

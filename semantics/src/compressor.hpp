@@ -1,0 +1,48 @@
+// Compressor: the compressions of a script, applied once each.
+//
+// The process is explored like any other, by a machine, and the graph is compressed by the function
+// of `lts/` that has the name of the built-in. Generalised results are made plain (CSPM reference
+// 4.7), so that everything else goes on with ordinary transitions.
+#pragma once
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "perentie/semantics/compression.hpp"
+#include "perentie/semantics/script.hpp"
+
+namespace perentie::semantics {
+
+class Compressor : public ProcessCompressor {
+ public:
+  /// Keeps references.
+  Compressor(Script& script, ProcStore& processes) : script_(script), processes_(processes) {}
+
+  void set_limits(const base::Limits& limits);
+  const CompressedProcess* compressed(ProcId term, Preserved preserved) override;
+  std::optional<base::LimitReached> limit() const override { return limit_; }
+  /// The built-ins that were taken as the identity because their processes are too large.
+  const std::set<Builtin>& given_up() const { return given_up_; }
+
+ private:
+  using Key = std::pair<std::uint32_t, Preserved>;  // of a term
+
+  std::optional<CompressedProcess> compress(ProcId term, Preserved preserved);
+  CompressedProcess with_terms(lts::Lts lts, ProcId term, Preserved preserved);
+
+  Script& script_;
+  ProcStore& processes_;
+  base::Budget budget_{base::Limits{}};
+  struct Known {
+    bool is_in_work = true;
+    std::optional<CompressedProcess> process;  // nothing: the identity
+  };
+  std::map<Key, Known> known_;
+  std::set<Builtin> given_up_;
+  std::optional<base::LimitReached> limit_;
+  std::uint32_t nesting_ = 0;
+  std::uint64_t states_in_vain_ = 0;  // explored since limits were set
+};
+
+}  // namespace perentie::semantics
