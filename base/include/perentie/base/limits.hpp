@@ -26,7 +26,7 @@ struct Limits {
   std::optional<std::uint64_t> max_states = {};
   std::optional<std::uint64_t> max_memory_bytes = {};
   std::optional<std::chrono::milliseconds> timeout = {};
-  std::chrono::milliseconds time_used = {};  ///< of `timeout`, before the run began
+  std::chrono::milliseconds time_used = {};      ///< of `timeout`, before the run began
   const std::atomic<bool>* cancelled = nullptr;  ///< set from a signal handler or another thread
 };
 
