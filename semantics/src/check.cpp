@@ -11,6 +11,7 @@
 #include "perentie/lts/refusal_testing.hpp"
 #include "perentie/lts/revivals.hpp"
 #include "perentie/lts/specifications.hpp"
+#include "perentie/lts/weak_bisimulation.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 #include "perentie/semantics/process_system.hpp"
 #include "preserved_in_script.hpp"
@@ -92,7 +93,27 @@ class Checker {
 
   std::optional<lts::NormalLts> normal_form(ProcId process, bool with_acceptances) {
     const auto exploration = explored(process);
-    return exploration ? normal_form(exploration->lts, with_acceptances) : std::nullopt;
+    if (!exploration) return std::nullopt;
+    if (!needs_compression(exploration->lts)) {
+      return normal_form(exploration->lts, with_acceptances);
+    }
+    const auto small = lts::delay_bisimulation(exploration->lts, options_.limits);
+    if (const auto* limit = std::get_if<base::LimitReached>(&small)) {
+      stop(*limit);
+      return std::nullopt;
+    }
+    return normal_form(std::get<lts::Quotient>(small).lts, with_acceptances);
+  }
+
+  // The subset construction takes very long on large graphs with many τ, and meets few sets in
+  // their quotients. Small graphs keep the nodes, and with them the counts, that FDR has.
+  static bool needs_compression(const lts::Lts& lts) {
+    constexpr std::size_t large = 10'000;
+    if (lts.state_count() < large) return false;
+    for (std::uint32_t s = 0; s < lts.state_count(); ++s) {
+      if (!lts.is_stable(lts::State{s})) return true;
+    }
+    return false;
   }
 
   std::optional<lts::NormalLts> normal_form(const lts::Lts& lts, bool with_acceptances) {

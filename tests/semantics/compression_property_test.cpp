@@ -20,9 +20,10 @@ namespace {
 const lts::ExploreOptions small{.limits = {.max_states = 2'000}};
 
 std::optional<lts::Lts> explored(TestScript& script, const std::string& process,
-                                 Preserved preserved) {
+                                 Preserved preserved, LeafCompression leaves) {
   base::Diagnostics diagnostics;
   script.script().set_preserved(preserved);
+  script.script().set_leaf_compression(leaves);
   const auto term = script.script().process(process, diagnostics);
   if (!term) return std::nullopt;
   auto found = explore_process(script.script(), *term, small, diagnostics);
@@ -39,6 +40,14 @@ bool refines(const lts::Lts& specification, const lts::Lts& implementation,
   return !found.counterexample;
 }
 
+void expect_equivalent(const lts::Lts& left, const lts::Lts& right) {
+  for (const auto model : {lts::SemanticModel::traces, lts::SemanticModel::failures,
+                           lts::SemanticModel::failures_divergences}) {
+    RC_ASSERT(refines(left, right, model));
+    RC_ASSERT(refines(right, left, model));
+  }
+}
+
 RC_GTEST_PROP(CompressionPropertyTest, AppliedCompressionsKeepFailuresAndDivergences, ()) {
   const std::string definitions = test::some_definitions();
   const std::string process =
@@ -46,16 +55,30 @@ RC_GTEST_PROP(CompressionPropertyTest, AppliedCompressionsKeepFailuresAndDiverge
   RC_LOG() << definitions << process;
   TestScript script(definitions);
   RC_ASSERT(script.loaded());
-  const auto exact = explored(script, process, Preserved::identity);
-  const auto applied = explored(script, process, Preserved::failures_divergences);
+  const auto exact = explored(script, process, Preserved::identity, LeafCompression::none);
+  const auto applied =
+      explored(script, process, Preserved::failures_divergences, LeafCompression::none);
   RC_ASSERT(exact.has_value() <= applied.has_value());
   if (!exact) RC_DISCARD("too large");
   RC_CLASSIFY(applied->state_count() < exact->state_count(), "smaller");
-  for (const auto model : {lts::SemanticModel::traces, lts::SemanticModel::failures,
-                           lts::SemanticModel::failures_divergences}) {
-    RC_ASSERT(refines(*exact, *applied, model));
-    RC_ASSERT(refines(*applied, *exact, model));
-  }
+  expect_equivalent(*exact, *applied);
+}
+
+RC_GTEST_PROP(CompressionPropertyTest, WeaklyCompressedLeavesKeepFailuresAndDivergences, ()) {
+  const std::string definitions = test::some_definitions();
+  const std::string process = test::some_process(2);
+  RC_LOG() << definitions << process;
+  TestScript script(definitions);
+  RC_ASSERT(script.loaded());
+  const auto exact = explored(script, process, Preserved::identity, LeafCompression::none);
+  if (!exact) RC_DISCARD("too large");
+  const auto strong = explored(script, process, Preserved::identity, LeafCompression::wbisim);
+  RC_ASSERT(strong.has_value());
+  expect_equivalent(*exact, *strong);
+  const auto weak = explored(script, process, Preserved::priority, LeafCompression::wbisim);
+  RC_ASSERT(weak.has_value());
+  RC_CLASSIFY(weak->state_count() < strong->state_count(), "smaller");
+  expect_equivalent(*exact, *weak);
 }
 
 }  // namespace

@@ -24,9 +24,15 @@ class Compiler {
   Compiler(const MachineParts& parts, const MachineOptions& options)
       : parts_(parts),
         options_(options),
+        compression_(options.leaf_compression),
         budget_(options.limits),
         steps_(parts.calls, parts.events, parts.processes, parts.compressions, unheard_),
-        builder_(parts.events, parts.processes, options.max_rules) {}
+        builder_(parts.events, parts.processes, options.max_rules) {
+    const bool keeps_weak = parts.compressions.preserved <= Preserved::priority;
+    if (compression_ == LeafCompression::wbisim && !keeps_weak) {
+      compression_ = LeafCompression::sbisim;
+    }
+  }
 
   MachineCompilation run(ProcId process) {
     const std::optional<ProcId> root = steps_.state(process);
@@ -43,6 +49,7 @@ class Compiler {
     auto machine = make_tables(leaves, builder_, *rules, joins_termination_);
     if (!machine) return give_up();
     machine->root = *root;
+    machine->is_weak = compression_ == LeafCompression::wbisim;
     for (const ProcId term : leaf_terms_) machine->leaf_kinds.push_back(leaf_kinds_.at(term.value));
     machine->leaf_sizes = std::move(leaf_sizes_);
     for (const auto& size : machine->leaf_sizes) {
@@ -81,8 +88,8 @@ class Compiler {
     }
     leaf_states_ += leaf.graph->state_count();
     LeafSize size{term, leaf.graph->state_count(), leaf.graph->edge_count(), 0, 0};
-    if (options_.leaf_compression == LeafCompression::sbisim && leaf_terms_.size() > 1) {
-      leaf.graph = compress_leaf(std::move(*leaf.graph));
+    if (compression_ != LeafCompression::none && leaf_terms_.size() > 1) {
+      leaf.graph = compress_leaf(std::move(*leaf.graph), compression_, budget_.rest());
     }
     size.states = leaf.graph->state_count();
     size.edges = leaf.graph->edge_count();
@@ -110,6 +117,7 @@ class Compiler {
 
   const MachineParts& parts_;
   const MachineOptions& options_;
+  LeafCompression compression_;
   base::Budget budget_;
   base::Diagnostics unheard_;  // what leaves report: the step rules say it again if it matters
   StepRules steps_;

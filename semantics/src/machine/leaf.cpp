@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "perentie/lts/bisimulation.hpp"
 #include "perentie/lts/memory.hpp"
+#include "perentie/lts/weak_bisimulation.hpp"
 
 namespace perentie::semantics {
 
@@ -57,7 +60,19 @@ std::uint64_t LeafGraph::edge_count() const {
   return count;
 }
 
-LeafGraph compress_leaf(LeafGraph leaf) {
+namespace {
+
+std::optional<lts::Quotient> quotient_of(const lts::Lts& lts, LeafCompression compression,
+                                         const base::Limits& limits) {
+  if (compression == LeafCompression::sbisim) return lts::strong_bisimulation(lts);
+  auto result = lts::weak_bisimulation(lts, limits);
+  if (auto* quotient = std::get_if<lts::Quotient>(&result)) return std::move(*quotient);
+  return std::nullopt;
+}
+
+}  // namespace
+
+LeafGraph compress_leaf(LeafGraph leaf, LeafCompression compression, const base::Limits& limits) {
   // The names of labels do not matter to bisimulation.
   const auto labels = leaf.labels();
   const std::size_t label_count = labels.empty() ? 2 : std::max(labels.back().value + 1, 2U);
@@ -69,19 +84,22 @@ LeafGraph compress_leaf(LeafGraph leaf) {
     for (const lts::Edge& edge : leaf.edges(s)) builder.add_edge(edge.label, edge.target);
     builder.end_row();
   }
-  const lts::Quotient quotient = lts::strong_bisimulation(
-      std::move(builder).finish(lts::State{0}, leaf.state_count(), std::move(names)));
-  if (quotient.lts.state_count() == leaf.state_count()) return leaf;
+  const auto quotient =
+      quotient_of(std::move(builder).finish(lts::State{0}, leaf.state_count(), std::move(names)),
+                  compression, limits);
+  if (!quotient || quotient->lts.state_count() == leaf.state_count()) return leaf;
   LeafGraph smaller;
-  smaller.states.resize(quotient.lts.state_count());
+  smaller.states.resize(quotient->lts.state_count());
   for (std::uint32_t s = leaf.state_count(); s-- > 0;) {
-    smaller.states[quotient.block_of[s].value] = leaf.states[s];  // in the end the first one
+    const lts::State block = quotient->block_of[s];
+    if (block) smaller.states[block.value] = leaf.states[s];  // in the end the first one
   }
   for (const auto& [term, state] : leaf.numbers) {
-    smaller.numbers.emplace(term, quotient.block_of[state].value);
+    const lts::State block = quotient->block_of[state];
+    if (block) smaller.numbers.emplace(term, block.value);
   }
   for (std::uint32_t s = 0; s < smaller.state_count(); ++s) {
-    smaller.rows.add(quotient.lts.edges(lts::State{s}));
+    smaller.rows.add(quotient->lts.edges(lts::State{s}));
   }
   return smaller;
 }

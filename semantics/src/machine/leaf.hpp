@@ -13,6 +13,7 @@
 #include "perentie/base/limits.hpp"
 #include "perentie/lts/lts.hpp"
 #include "perentie/lts/runs.hpp"
+#include "perentie/semantics/machine.hpp"
 #include "perentie/semantics/step.hpp"
 
 namespace perentie::semantics {
@@ -41,8 +42,8 @@ struct LeafResult {
   LeafFailure failure = LeafFailure::other;
 };
 
-/// The quotient by strong bisimulation; the leaf itself if that is not smaller.
-LeafGraph compress_leaf(LeafGraph leaf);
+/// The quotient by a bisimulation; the leaf itself if that is not smaller, or costs too much.
+LeafGraph compress_leaf(LeafGraph leaf, LeafCompression compression, const base::Limits& limits);
 
 LeafResult explore_leaf(StepRules& rules, ProcId initial, std::uint64_t max_states,
                         const base::Budget& budget);

@@ -31,6 +31,7 @@ namespace perentie::semantics {
 enum class LeafCompression : std::uint8_t {
   none,
   sbisim,  ///< the quotient by strong bisimulation, FDR's default
+  wbisim,  ///< by divergence-respecting weak bisimulation, where it preserves enough
 };
 
 struct MachineOptions {
@@ -111,6 +112,7 @@ struct CompiledMachine {
   std::vector<std::unordered_map<std::uint32_t, std::uint32_t>> states_of_terms;
   std::vector<std::uint64_t> initial;  ///< packed
   ProcId root;                         ///< the initial term
+  bool is_weak = false;                ///< leaves lack τ that their terms have
   std::vector<ProcId> row_terms;       ///< by row; none: terminated
   std::shared_ptr<const lts::LabelNames> label_names;
 

@@ -45,9 +45,15 @@ class MachineProcess : public MachineSystem<words> {
   }
 
   /// A run of the step rules that the machine takes for this one. States of compressed leaves stand
-  /// for several terms, so their terms alone are not always a run.
+  /// for several terms, so their terms alone are not always a run. Where leaves lack τ that the
+  /// step rules have, they are all there is to say.
   std::vector<ProcId> terms_of_run(std::span<const State> states,
                                    std::span<const lts::Label> trace) const {
+    if (machine_->is_weak) {
+      std::vector<ProcId> terms;
+      for (const State& state : states) terms.push_back(term(state));
+      return terms;
+    }
     base::Diagnostics unheard;  // the machine has computed these steps before
     TermSystem terms = script_->terms(machine_->root, unheard);
     std::vector<ProcId> run{terms.initial()};
