@@ -128,10 +128,11 @@ Command add_check(CLI::App& program) {
                   "How many assertions are checked side by side; default: one for each processor")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1024}))
       ->type_name("N");
-  app->add_option("--compress-leaves", options->leaf_compression,
-                  "none or sbisim: what is done with the processes below the parallel operators; "
-                  "no outcome depends on it")
-      ->check(CLI::IsMember({"none", "sbisim"}))
+  app->add_option(
+         "--compress-leaves", options->leaf_compression,
+         "none, sbisim or wbisim: what is done with the processes below the parallel operators; "
+         "no outcome depends on it")
+      ->check(CLI::IsMember({"none", "sbisim", "wbisim"}))
       ->capture_default_str();
   app->add_flag("--call-stack", options->call_stack,
                 "Show the calls that led to an error of the script");

@@ -254,9 +254,10 @@ Command add_lts(CLI::App& program) {
       ->excludes("--compress");
   app->add_flag("--state-names", options->state_names,
                 "Write the process term of each state (dot, json and graphml)");
-  app->add_option("--compress-leaves", options->leaf_compression,
-                  "none or sbisim: what is done with the processes below the parallel operators")
-      ->check(CLI::IsMember({"none", "sbisim"}))
+  app->add_option(
+         "--compress-leaves", options->leaf_compression,
+         "none, sbisim or wbisim: what is done with the processes below the parallel operators")
+      ->check(CLI::IsMember({"none", "sbisim", "wbisim"}))
       ->capture_default_str();
   app->add_flag("--stats", options->stats,
                 "Print what the process is made of; the graph is written only with --output");

@@ -83,7 +83,7 @@ void add_fdr_options(CLI::App& app, FdrOptions& options) {
   add_truth(app, "cspm-evaluator-record-stack-traces", options.stack_traces,
             "On: errors come with the calls that led to them");
   app.add_option("--compiler-leaf-compression", options.leaf_compression,
-                 "none or sbisim; wbisim is read as sbisim: no verdict depends on it")
+                 "none, sbisim or wbisim: no verdict depends on it")
       ->transform(CLI::IsMember({"none", "sbisim", "wbisim"}, CLI::ignore_case))
       ->type_name("VALUE")
       ->group(group);

@@ -72,7 +72,8 @@ base::Limits BudgetOptions::limits() const {
 }
 
 semantics::LeafCompression leaf_compression_of(const std::string& option) {
-  return option == "none" ? semantics::LeafCompression::none : semantics::LeafCompression::sbisim;
+  using enum semantics::LeafCompression;
+  return option == "none" ? none : option == "sbisim" ? sbisim : wbisim;
 }
 
 std::optional<base::FileId> Input::read(const std::string& path) {

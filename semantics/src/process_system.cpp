@@ -2,6 +2,10 @@
 
 #include <memory>
 
+#include <fmt/format.h>
+
+#include "perentie/semantics/diagnostic_codes.hpp"
+
 namespace perentie::semantics {
 namespace {
 
@@ -15,21 +19,34 @@ std::function<ProcId(lts::State)> terms_of(System& system,
 
 }  // namespace
 
+void report_growth(const Script& script, const std::optional<base::LimitReached>& limit,
+                   base::Diagnostics& diagnostics) {
+  if (!limit || limit->kind == base::LimitKind::depth) return;
+  const auto definition = script.most_called();
+  if (!definition) return;
+  diagnostics.report(codes::growing_arguments, definition->span,
+                     fmt::format("`{}` is called with ever other arguments: if they grow without "
+                                 "end, so does the process",
+                                 definition->name));
+}
+
 ProcessExploration explore_process(Script& script, ProcId process,
                                    const lts::ExploreOptions& options,
                                    base::Diagnostics& diagnostics) {
-  return with_process_system(
+  auto result = with_process_system(
       script, process, options, diagnostics, [](auto& system, const lts::ExploreOptions& bounds) {
         auto found = lts::explore(system, bounds);
-        ProcessExploration result{.lts = std::move(found.lts),
-                                  .term = {},
-                                  .structure = system.structure(),
-                                  .complete = found.complete(),
-                                  .failed = found.failed,
-                                  .limit = found.limit ? found.limit : system.limit()};
-        result.term = terms_of(system, std::move(found.states));
-        return result;
+        ProcessExploration graph{.lts = std::move(found.lts),
+                                 .term = {},
+                                 .structure = system.structure(),
+                                 .complete = found.complete(),
+                                 .failed = found.failed,
+                                 .limit = found.limit ? found.limit : system.limit()};
+        graph.term = terms_of(system, std::move(found.states));
+        return graph;
       });
+  report_growth(script, result.limit, diagnostics);
+  return result;
 }
 
 }  // namespace perentie::semantics

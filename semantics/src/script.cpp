@@ -1,6 +1,7 @@
 #include "perentie/semantics/script.hpp"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include "components.hpp"
@@ -363,6 +364,22 @@ std::vector<std::string> Script::compressions_given_up() const {
     names.emplace_back(info(builtin).name);
   }
   return names;
+}
+
+std::optional<Script::CalledDefinition> Script::most_called() const {
+  constexpr std::uint32_t many = 1'000;
+  std::unordered_map<std::uint32_t, std::uint32_t> counts;  // by function
+  std::uint32_t most = many;
+  ProcId call;
+  for (std::uint32_t i = 0; i < impl_->processes.size(); ++i) {
+    if (impl_->processes.kind(ProcId{i}) != ProcKind::call) continue;
+    const std::uint32_t count = ++counts[impl_->processes.word(ProcId{i}, 0)];
+    if (count <= most) continue;
+    most = count;
+    call = ProcId{i};
+  }
+  if (!call) return std::nullopt;
+  return CalledDefinition{impl_->machine->call_name(call), impl_->machine->definition_span(call)};
 }
 
 const parser::SyntaxTree& Script::tree() const { return impl_->tree; }

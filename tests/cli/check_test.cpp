@@ -60,7 +60,21 @@ TEST(CheckTest, CompressesLeavesUnlessItIsTold) {
       "channel a, b\nP = a -> a -> P\nQ = b -> Q\nassert P ||| P ||| Q :[deadlock free [F]]\n";
   EXPECT_THAT(check(script).output, HasSubstr("; 1 states, "));
   EXPECT_THAT(check(script, {"--compress-leaves", "none"}).output, HasSubstr("; 4 states, "));
-  EXPECT_EQ(check(script, {"--compress-leaves", "wbisim"}).exit_code, 2);
+  EXPECT_EQ(check(script, {"--compress-leaves", "dbisim"}).exit_code, 2);
+  const char* with_tau =
+      "channel a\nP = a -> (STOP [> a -> P)\nassert P ||| P :[deadlock free [F]]\n";
+  EXPECT_THAT(check(with_tau).output, HasSubstr("holds  (line 3; 9 states, "));
+  EXPECT_THAT(check(with_tau, {"--compress-leaves", "wbisim"}).output,
+              HasSubstr("holds  (line 3; 1 states, "));
+}
+
+TEST(CheckTest, NamesTheDefinitionWhoseArgumentsGrow) {
+  const char* script =
+      "channel a\nCOUNT(n) = a -> COUNT(n + 1)\nassert COUNT(0) :[deadlock free]\n";
+  const Outcome outcome = check(script, {"--max-states", "5000"});
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_THAT(outcome.errors, HasSubstr("`COUNT` is called with ever other arguments"));
+  EXPECT_THAT(check(script, {"--max-states", "500"}).errors, Not(HasSubstr("COUNT` is called")));
 }
 
 TEST(CheckTest, ShowsTheCallsThatLedToAnError) {

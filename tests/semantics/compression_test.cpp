@@ -46,8 +46,7 @@ TEST(CompressionTest, TauLoopFactor) {
 
 // CSPM reference 4.7.7's own example: the refusals are those of a stable state behind τ.
 TEST(CompressionTest, NormalFormsSayWhatTheyRefuse) {
-  EXPECT_TRUE(
-      becomes("normal(P)", "0 a 1; 1 a 1; 1 tau 2; 2", "P = a -> P |~| a -> STOP"));
+  EXPECT_TRUE(becomes("normal(P)", "0 a 1; 1 a 1; 1 tau 2; 2", "P = a -> P |~| a -> STOP"));
   EXPECT_TRUE(becomes("diamond(a -> STOP [> b -> STOP)", "0 a 2; 0 b 2; 0 tau 1; 1 b 2; 2"));
 }
 

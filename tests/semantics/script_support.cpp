@@ -5,6 +5,7 @@
 #include <regex>
 #include <utility>
 
+#include "perentie/semantics/process_system.hpp"
 #include "perentie/test/lts_text.hpp"
 
 namespace perentie::semantics {
@@ -39,6 +40,11 @@ std::optional<lts::Lts> TestScript::explore(const std::string& process,
   auto exploration = lts::explore(system, {.limits = limits, .progress = {}});
   if (!exploration.complete() || diagnostics_.has_errors()) return std::nullopt;
   return std::move(exploration.lts);
+}
+
+bool TestScript::reaches_limit(const std::string& process, const base::Limits& limits) {
+  const std::optional<ProcId> term = script_->process(process, diagnostics_, process);
+  return term && explore_process(*script_, *term, {.limits = limits}, diagnostics_).limit;
 }
 
 std::string TestScript::codes() const {

@@ -34,6 +34,9 @@ class TestScript {
   /// explored.
   std::optional<lts::Lts> explore(const std::string& process, const base::Limits& limits = {});
 
+  /// Whether a limit ends the exploration of a process by the fastest machine.
+  bool reaches_limit(const std::string& process, const base::Limits& limits);
+
   const base::Diagnostics& diagnostics() const { return diagnostics_; }
   std::string messages() const { return base::render_all(diagnostics_, sources_); }
   /// The codes of all diagnostics, in order.

@@ -133,6 +133,11 @@ auto with_process_system(Script& script, ProcId process, const lts::ExploreOptio
   return use_lazy(any);
 }
 
+/// Says which definition may be the reason that a process has no end; `limit` is the budget that
+/// ran out, if one did.
+void report_growth(const Script& script, const std::optional<base::LimitReached>& limit,
+                   base::Diagnostics& diagnostics);
+
 /// A process as a graph, whatever system it came from.
 struct ProcessExploration {
   lts::Lts lts;
@@ -155,16 +160,16 @@ lts::RefineResult<ProcId> refine_process(Script& script, ProcId process,
                                          lts::SemanticModel model,
                                          const lts::ExploreOptions& options,
                                          base::Diagnostics& diagnostics) {
-  return with_process_system(
+  auto result = with_process_system(
       script, process, options, diagnostics, [&](auto& system, const lts::ExploreOptions& bounds) {
         auto found = lts::refine(specification, system, model, bounds);
-        lts::RefineResult<ProcId> result{.counts = found.counts,
+        lts::RefineResult<ProcId> answer{.counts = found.counts,
                                          .counterexample = {},
                                          .limit = found.limit ? found.limit : system.limit(),
                                          .failed = found.failed};
         if (found.counterexample) {
           auto& from = *found.counterexample;
-          auto& to = result.counterexample.emplace(
+          auto& to = answer.counterexample.emplace(
               lts::Counterexample<ProcId>{static_cast<lts::Counterexample<ProcId>::Kind>(from.kind),
                                           std::move(from.trace),
                                           {},
@@ -177,8 +182,10 @@ lts::RefineResult<ProcId> refine_process(Script& script, ProcId process,
             for (const auto& state : from.states) to.states.push_back(system.term(state));
           }
         }
-        return result;
+        return answer;
       });
+  report_growth(script, result.limit, diagnostics);
+  return result;
 }
 
 }  // namespace perentie::semantics

@@ -87,7 +87,8 @@ class Script {
   /// The term that a packed state of such a machine stands for.
   ProcId term(const CompiledMachine& machine, std::span<const std::uint64_t> state);
   /// The packed state of a term. Nothing: it is none of the machine, or has terminated.
-  std::optional<std::vector<std::uint64_t>> state(const CompiledMachine& machine, ProcId term) const;
+  std::optional<std::vector<std::uint64_t>> state(const CompiledMachine& machine,
+                                                  ProcId term) const;
   /// What is done with the leaves of machines that checks and graphs are made of. As in FDR, that
   /// is `sbisim` unless it is set.
   void set_leaf_compression(LeafCompression compression);
@@ -122,6 +123,14 @@ class Script {
   /// The compressions that were not applied to some process because it, or what they make of it,
   /// is too large; no result depends on that, the number of states does.
   std::vector<std::string> compressions_given_up() const;
+
+  /// The definition that was called with the most different arguments so far, if they are many: in
+  /// a process without end (CSPM reference 6.1.4) it is the one whose arguments grow.
+  struct CalledDefinition {
+    std::string name;
+    base::Span span;
+  };
+  std::optional<CalledDefinition> most_called() const;
 
   const parser::SyntaxTree& tree() const;
   /// The core code as text, for `dump --phase core`.
