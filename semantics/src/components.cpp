@@ -3,40 +3,13 @@
 #include <algorithm>
 
 namespace perentie::semantics {
-Components::Place Components::places(ProcId term) const {
-  const ProcKind kind = processes_.kind(term);
-  const std::size_t words = processes_.words(term).size();
-  switch (kind) {
-    case ProcKind::interleave:
-    case ProcKind::external_choice:
-    case ProcKind::interrupt:
-      return {0, 1, words};
-    case ProcKind::parallel:
-    case ProcKind::link_parallel:
-    case ProcKind::sync_choice:
-    case ProcKind::sync_interrupt:
-      return {1, 1, words - 1};
-    case ProcKind::alphabet_parallel:
-      return {1, 2, words / 2};
-    case ProcKind::sequential:
-    case ProcKind::sliding_choice:
-    case ProcKind::prioritise:
-      return {0, 1, 1};
-    case ProcKind::exception:
-    case ProcKind::hide:
-    case ProcKind::project:
-    case ProcKind::rename:
-    case ProcKind::compression:
-      return {1, 1, 1};
-    case ProcKind::prioritise_partial:
-      return {2, 1, 1};
-    default:
-      return {0, 1, 0};
-  }
+
+RunningOperands Components::places(ProcId term) const {
+  return running_operands(processes_.kind(term), processes_.words(term).size());
 }
 
 std::vector<ProcId> Components::of(ProcId state) {
-  const Place place = places(state);
+  const RunningOperands place = places(state);
   std::vector<ProcId> components;
   for (std::size_t i = 0; i < place.count; ++i) {
     const auto component = rules_.state(processes_.operand(state, place.first + i * place.stride));
@@ -46,7 +19,8 @@ std::vector<ProcId> Components::of(ProcId state) {
   return components;
 }
 
-bool Components::belongs_to_same_operator(ProcId from, ProcId to, const Place& place) const {
+bool Components::belongs_to_same_operator(ProcId from, ProcId to,
+                                          const RunningOperands& place) const {
   const auto before = processes_.words(from);
   const auto after = processes_.words(to);
   if (processes_.kind(from) != processes_.kind(to) || before.size() != after.size()) return false;
@@ -77,7 +51,7 @@ bool Components::becomes(ProcId term, lts::Label inner, lts::Label outer) const 
 
 std::vector<std::size_t> Components::partners(ProcId state, std::size_t ready,
                                               lts::Label event) const {
-  const Place place = places(state);
+  const RunningOperands place = places(state);
   const ProcKind kind = processes_.kind(state);
   const auto takes_part = [&](std::size_t i) {
     if (event == lts::tau) return i == ready;
@@ -134,7 +108,7 @@ std::optional<std::vector<TransitionShare>> Components::shares(ProcId from, lts:
   }
   // After ✓ nothing is left of the operator.
   const bool ends = label == lts::tick;
-  const Place place = places(from);
+  const RunningOperands place = places(from);
   if (!ends && !belongs_to_same_operator(from, to, place)) return std::nullopt;
   const std::vector<ProcId> targets = ends ? std::vector<ProcId>{} : of(to);
   if (!ends && targets.size() != components.size()) return std::nullopt;

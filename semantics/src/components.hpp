@@ -31,14 +31,8 @@ class Components {
  private:
   using Steps = StepRules::Steps;
 
-  struct Place {
-    std::size_t first;  // of the words, a component
-    std::size_t stride;
-    std::size_t count;
-  };
-
-  Place places(ProcId term) const;
-  bool belongs_to_same_operator(ProcId from, ProcId to, const Place& place) const;
+  RunningOperands places(ProcId term) const;
+  bool belongs_to_same_operator(ProcId from, ProcId to, const RunningOperands& place) const;
   bool becomes(ProcId term, lts::Label inner, lts::Label outer) const;
   std::optional<TransitionShare> share(ProcId from, std::size_t component, const Steps& steps,
                                        lts::Label label, std::optional<ProcId> target) const;

@@ -3,14 +3,6 @@
 #include <algorithm>
 
 namespace perentie::semantics {
-namespace {
-
-std::span<const std::uint32_t> as_words(std::span<const ProcId> processes) {
-  static_assert(sizeof(ProcId) == sizeof(std::uint32_t));
-  return {reinterpret_cast<const std::uint32_t*>(processes.data()), processes.size()};
-}
-
-}  // namespace
 
 std::optional<OperandPlaces> process_operands(ProcKind kind) {
   constexpr std::size_t only = std::size_t{1} << 32U;  // no second operand
@@ -53,6 +45,50 @@ std::optional<OperandPlaces> process_operands(ProcKind kind) {
       return OperandPlaces{2, only};
   }
   return std::nullopt;
+}
+
+RunningOperands running_operands(ProcKind kind, std::size_t word_count) {
+  switch (kind) {
+    case ProcKind::interleave:
+    case ProcKind::external_choice:
+    case ProcKind::interrupt:
+      return {0, 1, word_count};
+    case ProcKind::parallel:
+    case ProcKind::link_parallel:
+    case ProcKind::sync_choice:
+    case ProcKind::sync_interrupt:
+      return {1, 1, word_count - 1};
+    case ProcKind::alphabet_parallel:
+      return {1, 2, word_count / 2};
+    case ProcKind::sequential:
+    case ProcKind::sliding_choice:
+    case ProcKind::prioritise:
+      return {0, 1, 1};
+    case ProcKind::exception:
+    case ProcKind::hide:
+    case ProcKind::project:
+    case ProcKind::rename:
+    case ProcKind::compression:
+      return {1, 1, 1};
+    case ProcKind::prioritise_partial:
+      return {2, 1, 1};
+    default:
+      return {};
+  }
+}
+
+bool stays_in_place(ProcKind kind) {
+  switch (kind) {
+    case ProcKind::hide:
+    case ProcKind::project:
+    case ProcKind::rename:
+    case ProcKind::compression:
+    case ProcKind::chase:
+    case ProcKind::prioritise_partial:
+      return true;
+    default:
+      return is_parallel(kind);
+  }
 }
 
 ProcStore::ProcStore() {

@@ -69,30 +69,6 @@ std::optional<ProcId> StepRules::state(ProcId process) {
 
 // --- States -------------------------------------------------------------------------------------
 
-namespace {
-
-// The process operands of an operator that stays in place when they step. None: the term is not
-// such an operator.
-std::optional<OperandPlaces> static_operands(ProcKind kind) {
-  switch (kind) {
-    case ProcKind::interleave:
-    case ProcKind::parallel:
-    case ProcKind::link_parallel:
-    case ProcKind::alphabet_parallel:
-    case ProcKind::hide:
-    case ProcKind::project:
-    case ProcKind::rename:
-    case ProcKind::compression:
-    case ProcKind::chase:
-    case ProcKind::prioritise_partial:
-      return process_operands(kind);
-    default:
-      return std::nullopt;
-  }
-}
-
-}  // namespace
-
 std::optional<ProcId> StepRules::unfold(ProcId call) {
   const std::optional<ProcId> body = calls_.unfold(call, diagnostics_);
   if (!body) limit_ = calls_.limit();
@@ -120,7 +96,7 @@ std::optional<ProcId> StepRules::settle(ProcId process) {
       // DIV, RUN(A) and CHAOS(A) are names, too.
       const bool is_name = kind == ProcKind::call || kind == ProcKind::div ||
                            kind == ProcKind::run || kind == ProcKind::chaos;
-      if (is_name || static_operands(kind)) {
+      if (is_name || stays_in_place(kind)) {
         process = *body;
       } else {
         state = process;
@@ -132,15 +108,16 @@ std::optional<ProcId> StepRules::settle(ProcId process) {
 }
 
 std::optional<ProcId> StepRules::settle_operands(ProcId process) {
-  const auto places = static_operands(processes_.kind(process));
-  if (!places || depth_ >= max_depth) return process;
+  const ProcKind kind = processes_.kind(process);
+  if (!stays_in_place(kind) || depth_ >= max_depth) return process;
   if (const auto known = settled_operands_.find(process.value); known != settled_operands_.end()) {
     return known->second;
   }
+  const OperandPlaces places = *process_operands(kind);
   const auto words = processes_.words(process);
   std::vector<std::uint32_t> settled(words.begin(), words.end());
   ++depth_;
-  for (std::size_t i = places->first; i < settled.size(); i += places->stride) {
+  for (std::size_t i = places.first; i < settled.size(); i += places.stride) {
     const std::optional<ProcId> operand = settle(ProcId{settled[i]});
     if (!operand) return std::nullopt;
     settled[i] = operand->value;

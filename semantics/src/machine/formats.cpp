@@ -9,68 +9,10 @@ namespace {
 // Operators in operators: a bound on recursion; what lies deeper is a leaf.
 constexpr std::uint32_t max_depth = 300;
 
-// The operators whose running operands settle with the whole (`StepRules::state`).
-bool settles_operands(ProcKind kind) {
-  switch (kind) {
-    case ProcKind::hide:
-    case ProcKind::project:
-    case ProcKind::rename:
-    case ProcKind::compression:
-    case ProcKind::prioritise_partial:
-      return true;
-    default:
-      return is_parallel(kind);
-  }
-}
-
-// Where the operands of an operator stand that run from the start, as words [first, end) with a
-// stride; none of a term that is always a leaf (CSPM reference 4.1.5).
-struct Running {
-  std::size_t first = 0;
-  std::size_t end = 0;
-  std::size_t stride = 1;
-};
-
-Running running_operands(ProcKind kind, std::size_t words) {
-  switch (kind) {
-    case ProcKind::interleave:
-    case ProcKind::external_choice:
-    case ProcKind::interrupt:
-      return {0, words};
-    case ProcKind::sequential:
-    case ProcKind::sliding_choice:
-    case ProcKind::prioritise:
-      return {0, 1};
-    case ProcKind::parallel:
-    case ProcKind::link_parallel:
-    case ProcKind::sync_choice:
-    case ProcKind::sync_interrupt:
-      return {1, words};
-    case ProcKind::alphabet_parallel:
-      return {1, words, 2};
-    case ProcKind::exception:
-    case ProcKind::hide:
-    case ProcKind::project:
-    case ProcKind::rename:
-    case ProcKind::compression:
-      return {1, 2};
-    case ProcKind::prioritise_partial:
-      return {2, 3};
-    default:
-      return {};
-  }
-}
-
 // In keys: what stands for a leaf, and for a word that is an operand.
 constexpr std::uint32_t leaf_mark = ~std::uint32_t{0};
 
 }  // namespace
-
-EventBits::EventBits(const EventTable& events, EventSetId set) {
-  const auto members = events.events(set);
-  if (!members.empty()) bits_.resize(members.back().value + 1);
-  for (const EventId event : members) bits_[event.value] = true;
-}
 
 const EventBits* FormatTable::bits(EventSetId set) {
   const auto known = bits_.find(set);
@@ -80,7 +22,7 @@ const EventBits* FormatTable::bits(EventSetId set) {
 
 FormatTable::Place FormatTable::Place::below(ProcKind kind) const {
   const bool is_priority = kind == ProcKind::prioritise || kind == ProcKind::prioritise_partial;
-  return {depth + 1, is_settled && settles_operands(kind), is_below_priority || is_priority};
+  return {depth + 1, is_settled && stays_in_place(kind), is_below_priority || is_priority};
 }
 
 bool FormatTable::is_composite(ProcId term, bool is_below_priority) {
@@ -97,9 +39,9 @@ bool FormatTable::is_composite(ProcId term, bool is_below_priority) {
     if (kind == ProcKind::compression && rules_.is_applied(next, below)) continue;
     const bool is_priority = kind == ProcKind::prioritise || kind == ProcKind::prioritise_partial;
     const auto words = processes_.words(next);
-    const Running running = running_operands(kind, words.size());
-    for (std::size_t i = running.first; i < running.end; i += running.stride) {
-      stack.emplace_back(ProcId{words[i]}, below || is_priority);
+    const RunningOperands running = running_operands(kind, words.size());
+    for (std::size_t i = 0; i < running.count; ++i) {
+      stack.emplace_back(ProcId{words[running.first + i * running.stride]}, below || is_priority);
     }
   }
   if (term.value >= known.size()) known.resize(processes_.size());
@@ -121,14 +63,15 @@ void FormatTable::write_key(ProcId term, const Place& place, std::vector<ProcId>
   const ProcKind kind = processes_.kind(term);
   const auto stored = processes_.words(term);
   const std::vector<std::uint32_t> words(stored.begin(), stored.end());  // compressions make terms
-  const Running running = running_operands(kind, words.size());
+  const RunningOperands running = running_operands(kind, words.size());
   key_.push_back(static_cast<std::uint32_t>(kind));
   key_.push_back(static_cast<std::uint32_t>(words.size()));
   const std::size_t first = key_.size();
   key_.insert(key_.end(), words.begin(), words.end());
-  for (std::size_t i = running.first; i < running.end; i += running.stride) {
-    key_[first + i] = leaf_mark;
-    write_key(ProcId{words[i]}, place.below(kind), leaves);
+  for (std::size_t i = 0; i < running.count; ++i) {
+    const std::size_t word = running.first + i * running.stride;
+    key_[first + word] = leaf_mark;
+    write_key(ProcId{words[word]}, place.below(kind), leaves);
   }
 }
 
@@ -173,12 +116,13 @@ std::uint32_t FormatTable::add_node(Format& format, ProcId term, const Place& pl
   }
   node.ends_with_leaves = is_parallel(node.kind) || node.kind == ProcKind::hide ||
                           node.kind == ProcKind::project || node.kind == ProcKind::rename;
-  const Running running = running_operands(node.kind, node.words.size());
+  const RunningOperands running = running_operands(node.kind, node.words.size());
   const Place below = place.below(node.kind);
-  for (std::size_t i = running.first; i < running.end; i += running.stride) {
-    const EventBits* alphabet = alphabetised ? bits(EventSetId{node.words[i - 1]}) : nullptr;
-    node.operands.push_back(
-        {add_node(format, ProcId{node.words[i]}, below), static_cast<std::uint32_t>(i), alphabet});
+  for (std::size_t i = 0; i < running.count; ++i) {
+    const std::size_t word = running.first + i * running.stride;
+    const EventBits* alphabet = alphabetised ? bits(EventSetId{node.words[word - 1]}) : nullptr;
+    node.operands.push_back({add_node(format, ProcId{node.words[word]}, below),
+                             static_cast<std::uint32_t>(word), alphabet});
     const FormatNode& operand = format.nodes[node.operands.back().node];
     node.ends_with_leaves = node.ends_with_leaves && (operand.is_leaf || operand.ends_with_leaves);
   }

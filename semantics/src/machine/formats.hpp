@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "machine/event_bits.hpp"
 #include "perentie/base/term_table.hpp"
 #include "perentie/semantics/event.hpp"
 #include "perentie/semantics/process.hpp"
@@ -21,17 +22,6 @@
 namespace perentie::semantics {
 
 using FormatId = base::Id<struct FormatTag>;
-
-/// A set of events that answers in constant time.
-class EventBits {
- public:
-  EventBits(const EventTable& events, EventSetId set);
-
-  bool contains(EventId event) const { return event.value < bits_.size() && bits_[event.value]; }
-
- private:
-  std::vector<bool> bits_;  // by event
-};
 
 /// The nodes of a format in preorder; the root is 0.
 struct FormatNode {

@@ -12,11 +12,6 @@ namespace {
 // States with this bit are composite: the rest is their number. Others are terms.
 constexpr std::uint32_t composite_bit = std::uint32_t{1} << 31U;
 
-std::span<const std::uint32_t> as_words(std::span<const ProcId> terms) {
-  static_assert(sizeof(ProcId) == sizeof(std::uint32_t));
-  return {reinterpret_cast<const std::uint32_t*>(terms.data()), terms.size()};
-}
-
 }  // namespace
 
 struct LazyMachine::Impl {

@@ -20,21 +20,6 @@ bool is_compiled_operator(ProcKind kind) {
   }
 }
 
-// A set of events that answers in constant time.
-class RuleBuilder::Members {
- public:
-  explicit Members(std::size_t events) : is_member_(events) {}
-  Members(const EventTable& events, EventSetId set) : Members(events.size()) {
-    for (const EventId event : events.events(set)) add(event);
-  }
-
-  void add(EventId event) { is_member_[event.value] = true; }
-  bool contains(EventId event) const { return is_member_[event.value]; }
-
- private:
-  std::vector<bool> is_member_;  // by event
-};
-
 namespace {
 
 // Rules with the same event become neighbours.
@@ -91,7 +76,7 @@ bool RuleBuilder::join(const Rules& left, const Rules& right, std::optional<Even
 
 // Shared events need both sides, the others one.
 std::optional<RuleBuilder::Rules> RuleBuilder::synchronise(Rules left, Rules right,
-                                                           const Members& shared) {
+                                                           const EventBits& shared) {
   Rules out;
   Rules left_shared, right_shared;
   for (const SyncRule& rule : left) {
@@ -118,14 +103,14 @@ std::optional<RuleBuilder::Rules> RuleBuilder::synchronise(Rules left, Rules rig
 std::optional<RuleBuilder::Rules> RuleBuilder::alphabetised(ProcId term,
                                                             std::vector<Rules> operands) {
   Rules rules;
-  Members known(events_.size());  // the events in the alphabets so far
+  EventBits known;  // the events in the alphabets so far
   for (std::size_t i = 0; i < operands.size(); ++i) {
     const EventSetId set{processes_.word(term, 2 * i)};
-    const Members alphabet(events_, set);
+    const EventBits alphabet(events_, set);
     std::erase_if(operands[i], [&](const SyncRule& rule) {
       return rule.event != lts::tau && !alphabet.contains(rule.event);
     });
-    Members shared(events_.size());
+    EventBits shared;
     for (const EventId event : events_.events(set)) {
       if (known.contains(event)) shared.add(event);
     }
@@ -140,7 +125,7 @@ std::optional<RuleBuilder::Rules> RuleBuilder::alphabetised(ProcId term,
 // Linked events happen together, as τ, and never alone.
 std::optional<RuleBuilder::Rules> RuleBuilder::linked(EventRelationId links, const Rules& left,
                                                       const Rules& right) {
-  Members right_ends(events_.size());
+  EventBits right_ends;
   for (const EventPair& pair : events_.pairs(links)) right_ends.add(pair.to);
   Rules out;
   Rules right_linked;
@@ -183,7 +168,7 @@ std::optional<RuleBuilder::Rules> RuleBuilder::combine(ProcId term, std::vector<
       return rules;
     }
     case ProcKind::parallel: {
-      const Members shared(events_, EventSetId{processes_.word(term, 0)});
+      const EventBits shared(events_, EventSetId{processes_.word(term, 0)});
       std::optional<Rules> rules = std::move(operands[0]);
       for (std::size_t i = 1; rules && i < operands.size(); ++i) {
         rules = synchronise(std::move(*rules), std::move(operands[i]), shared);
@@ -196,7 +181,7 @@ std::optional<RuleBuilder::Rules> RuleBuilder::combine(ProcId term, std::vector<
       return linked(EventRelationId{processes_.word(term, 0)}, operands[0], operands[1]);
     case ProcKind::hide:
     case ProcKind::project: {
-      const Members set(events_, EventSetId{processes_.word(term, 0)});
+      const EventBits set(events_, EventSetId{processes_.word(term, 0)});
       for (SyncRule& rule : operands[0]) {
         if (set.contains(rule.event) == (kind == ProcKind::hide)) rule.event = lts::tau;
       }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "machine/event_bits.hpp"
 #include "perentie/semantics/event.hpp"
 #include "perentie/semantics/process.hpp"
 
@@ -47,11 +48,9 @@ class RuleBuilder {
   }
 
  private:
-  class Members;
-
   bool unite(Rules& left, const Rules& right);
   bool join(const Rules& left, const Rules& right, std::optional<EventId> result, Rules& out);
-  std::optional<Rules> synchronise(Rules left, Rules right, const Members& shared);
+  std::optional<Rules> synchronise(Rules left, Rules right, const EventBits& shared);
   std::optional<Rules> alphabetised(ProcId term, std::vector<Rules> operands);
   std::optional<Rules> linked(EventRelationId links, const Rules& left, const Rules& right);
   std::optional<Rules> renamed(EventRelationId relation, const Rules& operand);

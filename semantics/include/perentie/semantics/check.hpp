@@ -1,8 +1,8 @@
 // Checking the assertions of a script (CSPM reference 2.6, 5).
 //
-// The specification is explored and normalised, the implementation compared with it on the fly by
-// the step rules. A budget that runs out leaves an assertion open: it is then neither true nor
-// false.
+// The specification is explored and normalised, the implementation compared with it on the fly,
+// both by the fastest machine. A budget that runs out leaves an assertion open: it is then neither
+// true nor false.
 #pragma once
 
 #include <cstdint>

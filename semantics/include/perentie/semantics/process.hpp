@@ -33,10 +33,29 @@ struct OperandPlaces {
 /// Of kinds without process operands, and of calls, nothing.
 std::optional<OperandPlaces> process_operands(ProcKind kind);
 
+/// Where the operands lie that run from the start (CSPM reference 4.1.5), among the words of a
+/// term.
+struct RunningOperands {
+  std::size_t first = 0;
+  std::size_t stride = 1;
+  std::size_t count = 0;
+};
+RunningOperands running_operands(ProcKind kind, std::size_t word_count);
+
+/// Whether an operator is there for ever, whatever its operands do. Names in its operands are then
+/// no states of their own (6.2.2).
+bool stays_in_place(ProcKind kind);
+
 /// Interleaving and the parallel operators: ✓ needs all operands (4.1.3).
 constexpr bool is_parallel(ProcKind kind) {
   return kind == ProcKind::interleave || kind == ProcKind::parallel ||
          kind == ProcKind::alphabet_parallel || kind == ProcKind::link_parallel;
+}
+
+/// Terms as the words that hold them.
+inline std::span<const std::uint32_t> as_words(std::span<const ProcId> terms) {
+  static_assert(sizeof(ProcId) == sizeof(std::uint32_t));
+  return {reinterpret_cast<const std::uint32_t*>(terms.data()), terms.size()};
 }
 
 class ProcStore {
