@@ -140,7 +140,7 @@ ExitCode finish(const lts::Lts& graph, const Options& options,
 }
 
 /// What the process is made of, as FDR's "machine structure" shows it.
-std::string statistics(const semantics::MachineStructure& machine, const lts::Lts& graph,
+std::string statistics(const semantics::MachineStructure& machine, const std::string& whole,
                        const semantics::Script& script) {
   const auto number = [](std::uint64_t n) { return base::with_thousands(n); };
   std::string text;
@@ -166,7 +166,7 @@ std::string statistics(const semantics::MachineStructure& machine, const lts::Lt
     text += fmt::format("machine: made as it is explored, {} formats, {} states of leaves\n",
                         number(machine.formats), number(machine.leaf_states));
   }
-  return text + fmt::format("whole: {}\n", size_of(graph));
+  return text + fmt::format("whole: {}\n", whole);
 }
 
 bool is_aut(const std::string& path) {
@@ -210,6 +210,20 @@ ExitCode make_lts(const Options& options, Console& console) {
   if (script == nullptr) return code;
   const base::Limits limits = options.budget.limits();
   script->set_leaf_compression(leaf_compression_of(options.leaf_compression));
+  if (options.stats && options.output == "-") {
+    const auto size =
+        count_lts(*script, options.process, "--process", limits, input, console, code);
+    if (!size) return code;
+    if (size->limit) {
+      console.note(fmt::format("{} states so far", base::with_thousands(size->states)));
+      return inconclusive(*size->limit, console);
+    }
+    const std::string whole =
+        fmt::format("{} states, {} transitions, repeated ones included",
+                    base::with_thousands(size->states), base::with_thousands(size->transitions));
+    console.result(statistics(size->structure, whole, *script));
+    return ExitCode::ok;
+  }
   const auto built = build_lts(*script, options.process, "--process", limits, input, console, code);
   if (!built) return code;
   if (built->limit) {
@@ -217,8 +231,7 @@ ExitCode make_lts(const Options& options, Console& console) {
     return inconclusive(*built->limit, console);
   }
   if (options.stats) {
-    console.result(statistics(built->structure, built->lts, *script));
-    if (options.output == "-") return ExitCode::ok;
+    console.result(statistics(built->structure, size_of(built->lts), *script));
   }
   std::function<std::string(lts::State)> state_name;
   if (options.state_names) {

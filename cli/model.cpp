@@ -3,11 +3,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "perentie/monitor/diagnostic_codes.hpp"
-#include "perentie/semantics/process_system.hpp"
 
 namespace perentie::cli {
 namespace {
@@ -109,29 +110,59 @@ std::string compression_given_up(const std::string& compression) {
       compression);
 }
 
-std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string& process,
-                                    const std::string& origin, const base::Limits& limits,
-                                    Input& input, Console& console, ExitCode& code) {
+namespace {
+
+// Evaluates a process and gives it to `explore`. If a budget ends the evaluation, that is the limit
+// of an empty result.
+template <class Explore, class Result = std::invoke_result_t<Explore, semantics::ProcId,
+                                                             const lts::ExploreOptions&>>
+std::optional<Result> explored(semantics::Script& script, const std::string& process,
+                               const std::string& origin, const base::Limits& limits, Input& input,
+                               Console& console, ExitCode& code, Result empty, Explore explore) {
   code = ExitCode::model_error;
   script.set_limits(limits);
   const std::optional<semantics::ProcId> initial =
       script.process(process, input.diagnostics, origin);
   if (!initial) {
     console.print(input.diagnostics, input.sources);
-    if (const auto limit = script.limit()) return ProcessLts{unexplored(), {}, {}, limit};
-    return std::nullopt;
+    empty.limit = script.limit();
+    return empty.limit ? std::optional(std::move(empty)) : std::nullopt;
   }
   lts::ExploreOptions options{.limits = limits};
   options.progress = [&console](const lts::ExploreProgress& p) { console.progress(p); };
-  auto found = semantics::explore_process(script, *initial, options, input.diagnostics);
+  Result found = explore(*initial, options);
   console.clear_progress();
   console.print(input.diagnostics, input.sources);
   if (found.failed && !found.limit) return std::nullopt;
   for (const std::string& compression : script.compressions_given_up()) {
     console.note(compression_given_up(compression));
   }
-  return ProcessLts{std::move(found.lts), std::move(found.term), std::move(found.structure),
-                    found.limit};
+  return found;
+}
+
+}  // namespace
+
+std::optional<semantics::ProcessExploration> build_lts(semantics::Script& script,
+                                                       const std::string& process,
+                                                       const std::string& origin,
+                                                       const base::Limits& limits, Input& input,
+                                                       Console& console, ExitCode& code) {
+  return explored(script, process, origin, limits, input, console, code,
+                  semantics::ProcessExploration{.lts = unexplored(), .term = {}, .structure = {}},
+                  [&](semantics::ProcId initial, const lts::ExploreOptions& options) {
+                    return semantics::explore_process(script, initial, options, input.diagnostics);
+                  });
+}
+
+std::optional<semantics::ProcessSize> count_lts(semantics::Script& script,
+                                                const std::string& process,
+                                                const std::string& origin,
+                                                const base::Limits& limits, Input& input,
+                                                Console& console, ExitCode& code) {
+  return explored(script, process, origin, limits, input, console, code, semantics::ProcessSize{},
+                  [&](semantics::ProcId initial, const lts::ExploreOptions& options) {
+                    return semantics::count_process(script, initial, options, input.diagnostics);
+                  });
 }
 
 }  // namespace perentie::cli

@@ -14,6 +14,7 @@
 #include "perentie/base/diagnostic.hpp"
 #include "perentie/lts/lts.hpp"
 #include "perentie/semantics/machine.hpp"
+#include "perentie/semantics/process_graph.hpp"
 #include "perentie/semantics/script.hpp"
 
 namespace perentie::cli {
@@ -48,20 +49,21 @@ struct Input {
 std::unique_ptr<semantics::Script> load_script(const std::string& path, Input& input,
                                                Console& console, ExitCode& code);
 
-/// A process as an explicit LTS, with the terms that its states are.
-struct ProcessLts {
-  lts::Lts lts;
-  std::function<semantics::ProcId(lts::State)> term;  ///< of a state
-  semantics::MachineStructure structure;
-  std::optional<base::LimitReached> limit;  ///< of exploration or evaluation
-};
-
 /// Evaluates and explores. Nothing: `code` says what to exit with, and the reason was printed. A
 /// budget that ran out is a result, not a failure: the LTS is then a part. `origin`
 /// is where the expression was written.
-std::optional<ProcessLts> build_lts(semantics::Script& script, const std::string& process,
-                                    const std::string& origin, const base::Limits& limits,
-                                    Input& input, Console& console, ExitCode& code);
+std::optional<semantics::ProcessExploration> build_lts(semantics::Script& script,
+                                                       const std::string& process,
+                                                       const std::string& origin,
+                                                       const base::Limits& limits, Input& input,
+                                                       Console& console, ExitCode& code);
+
+/// The same without the graph.
+std::optional<semantics::ProcessSize> count_lts(semantics::Script& script,
+                                                const std::string& process,
+                                                const std::string& origin,
+                                                const base::Limits& limits, Input& input,
+                                                Console& console, ExitCode& code);
 
 /// What to say of a compression that `Script::compressions_given_up` names.
 std::string compression_given_up(const std::string& compression);

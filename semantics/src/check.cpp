@@ -13,6 +13,7 @@
 #include "perentie/lts/specifications.hpp"
 #include "perentie/lts/weak_bisimulation.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
+#include "perentie/semantics/process_graph.hpp"
 #include "perentie/semantics/process_system.hpp"
 #include "preserved_in_script.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "perentie/lts/compressions.hpp"
 #include "perentie/lts/weak_bisimulation.hpp"
-#include "perentie/semantics/process_system.hpp"
+#include "perentie/semantics/process_graph.hpp"
 #include "preserved_in_script.hpp"
 
 namespace perentie::semantics {

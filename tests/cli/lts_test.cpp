@@ -121,7 +121,7 @@ R = (P ||| SKIP) ; R
             "leaves: 3, 2 different\n"
             "  2 x P: 2 states, 2 transitions\n"
             "  1 x Q: 1 states, 1 transitions\n"
-            "whole: 4 states, 12 transitions\n");
+            "whole: 4 states, 12 transitions, repeated ones included\n");
   const std::string file = (folder.path() / "out.aut").string();
   const Outcome small = perentie({"-q", "lts", model, "-p", "P ||| P ||| Q", "--stats",
                                   "--compress-leaves", "sbisim", "-o", file});

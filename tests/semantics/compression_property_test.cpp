@@ -11,7 +11,7 @@
 #include "perentie/lts/refine.hpp"
 #include "perentie/lts/specifications.hpp"
 #include "perentie/semantics/compression.hpp"
-#include "perentie/semantics/process_system.hpp"
+#include "perentie/semantics/process_graph.hpp"
 #include "script_support.hpp"
 
 namespace perentie::semantics {

@@ -6,6 +6,7 @@
 
 #include "perentie/lts/bisimulation.hpp"
 #include "perentie/lts/specifications.hpp"
+#include "perentie/semantics/process_graph.hpp"
 #include "perentie/semantics/process_system.hpp"
 #include "script_support.hpp"
 

@@ -1,4 +1,5 @@
 // Which system computes a process, and that its answers do not depend on it.
+#include "perentie/semantics/process_graph.hpp"
 #include "perentie/semantics/process_system.hpp"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <regex>
 #include <utility>
 
-#include "perentie/semantics/process_system.hpp"
+#include "perentie/semantics/process_graph.hpp"
 #include "perentie/test/lts_text.hpp"
 
 namespace perentie::semantics {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -137,21 +136,6 @@ auto with_process_system(Script& script, ProcId process, const lts::ExploreOptio
 /// ran out, if one did.
 void report_growth(const Script& script, const std::optional<base::LimitReached>& limit,
                    base::Diagnostics& diagnostics);
-
-/// A process as a graph, whatever system it came from.
-struct ProcessExploration {
-  lts::Lts lts;
-  std::function<ProcId(lts::State)> term;  ///< of a state; needs the script
-  MachineStructure structure;
-  bool complete;
-  bool failed;  ///< some transitions could not be computed; the reason was reported
-  std::optional<base::LimitReached> limit;
-};
-
-/// `lts::explore` on the fastest system.
-ProcessExploration explore_process(Script& script, ProcId process,
-                                   const lts::ExploreOptions& options,
-                                   base::Diagnostics& diagnostics);
 
 /// `lts::refine` on the fastest system, with terms in the place of its states.
 template <class Specification>
