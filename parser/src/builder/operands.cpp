@@ -64,12 +64,12 @@ ExprId ExpressionBuilder::collection(const Token* open, ExprList items,
   if (!range) {
     return context_->add(span, CollectionExpr{kind, items, statements.value_or(StatementList{})});
   }
-  if (kind == Collection::productions) {
-    context_->report(codes::bad_range, span, "`{| |}` holds events or values, not a range");
-  } else if (items.count != 1) {
+  if (kind == Collection::productions || items.count != 1) {
     context_->report(
         codes::bad_range, span,
-        fmt::format("a range has one expression before `..`, this has {}", items.count));
+        kind == Collection::productions
+            ? "`{| |}` holds events or values, not a range"
+            : fmt::format("a range has one expression before `..`, this has {}", items.count));
     return context_->add(span, CollectionExpr{kind, items, statements.value_or(StatementList{})});
   }
   const ExprId first = context_->tree.list(items)[0];
