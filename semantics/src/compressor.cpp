@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "perentie/lts/compressions.hpp"
+#include "perentie/lts/deterministic_extraction.hpp"
 #include "perentie/lts/weak_bisimulation.hpp"
 #include "perentie/semantics/process_graph.hpp"
 #include "preserved_in_script.hpp"
@@ -14,7 +15,8 @@ namespace {
 // Larger processes are not compressed: they may be small where they are used. After so many states
 // of such processes no more are tried.
 constexpr std::uint64_t max_states = 10'000'000;
-// Compressions in compressions: a bound on recursion; what lies deeper is not compressed.
+// Compressions in compressions: a bound on recursion; what lies deeper is not compressed. Graph
+// operators that lie deeper have no graph.
 constexpr std::uint32_t max_nesting = 100;
 
 using Compression = std::variant<lts::Lts, base::LimitReached>;
@@ -46,6 +48,20 @@ Compression compress_graph(const lts::Lts& lts, Builtin compression, const base:
   }
 }
 
+Compression apply_to_graph(const lts::Lts& lts, Builtin) {
+  return lts::deterministic_extraction(lts);
+}
+
+// Errors are those of the one who asked. What is said of a budget that ran out will be said of the
+// whole.
+void pass_on(const base::Diagnostics& heard, base::Diagnostics& diagnostics) {
+  for (const base::Diagnostic& d : heard.all()) {
+    auto& report = d.span ? diagnostics.report(*d.code, *d.span, d.message)
+                          : diagnostics.report(*d.code, d.message);
+    report.notes = d.notes;
+  }
+}
+
 }  // namespace
 
 bool preserves(Builtin compression, Preserved preserved) {
@@ -67,6 +83,7 @@ bool preserves(Builtin compression, Preserved preserved) {
 void Compressor::set_limits(const base::Limits& limits) {
   budget_ = base::Budget(limits);
   states_in_vain_ = 0;
+  std::erase_if(applied_, [](const auto& entry) { return entry.second.limit.has_value(); });
 }
 
 const CompressedProcess* Compressor::compressed(ProcId term, Preserved preserved) {
@@ -114,7 +131,55 @@ std::optional<CompressedProcess> Compressor::compress(ProcId term, Preserved pre
   }
   Compression small = compress_graph(found.lts, builtin, limits);
   if (const auto* reached = std::get_if<base::LimitReached>(&small)) return give_up(*reached);
+  limit_.reset();
   return with_terms(std::get<lts::Lts>(std::move(small)), term, preserved);
+}
+
+bool Compressor::is_being_applied(ProcId term) const {
+  const auto known = applied_.find(term.value);
+  return known != applied_.end() && known->second.is_in_work;
+}
+
+const CompressedProcess* Compressor::applied(ProcId term, base::Diagnostics& diagnostics) {
+  limit_.reset();
+  const auto [place, is_new] = applied_.try_emplace(term.value);
+  Applied& known = place->second;
+  if (!is_new) {
+    limit_ = known.limit;
+    return known.process ? &*known.process : nullptr;
+  }
+  if (nesting_ == max_nesting) {
+    limit_ = {base::LimitKind::depth, max_nesting};
+  } else {
+    ++nesting_;
+    known.process = apply(term, diagnostics);
+    --nesting_;
+  }
+  known.is_in_work = false;
+  known.limit = limit_;
+  if (known.process) return &*known.process;
+  if (!limit_) applied_.erase(place);  // whoever asks again gets the errors, too
+  return nullptr;
+}
+
+std::optional<CompressedProcess> Compressor::apply(ProcId term, base::Diagnostics& diagnostics) {
+  constexpr auto preserved = Preserved::failures_divergences;
+  const auto builtin = static_cast<Builtin>(processes_.word(term, 0));
+  const PreservedInScript scope(script_, preserved);
+  base::Diagnostics heard;
+  const auto found =
+      explore_process(script_, processes_.operand(term, 1), {.limits = budget_.rest()}, heard);
+  limit_ = found.limit;
+  if (!found.complete) {
+    if (!limit_) pass_on(heard, diagnostics);
+    return std::nullopt;
+  }
+  Compression graph = apply_to_graph(found.lts, builtin);
+  if (const auto* reached = std::get_if<base::LimitReached>(&graph)) {
+    limit_ = *reached;
+    return std::nullopt;
+  }
+  return with_terms(std::get<lts::Lts>(std::move(graph)), term, preserved);
 }
 
 // A state without transitions is STOP, whatever leads to it; so is what ✓ leads to (4.1.2).

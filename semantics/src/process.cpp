@@ -37,6 +37,7 @@ std::optional<OperandPlaces> process_operands(ProcKind kind) {
     case ProcKind::project:
     case ProcKind::rename:
     case ProcKind::compression:
+    case ProcKind::graph_operator:
       return OperandPlaces{1, only};
     case ProcKind::chase:
     case ProcKind::prioritise:
@@ -83,6 +84,7 @@ bool stays_in_place(ProcKind kind) {
     case ProcKind::project:
     case ProcKind::rename:
     case ProcKind::compression:
+    case ProcKind::graph_operator:
     case ProcKind::chase:
     case ProcKind::prioritise_partial:
       return true;

@@ -293,7 +293,8 @@ std::string Script::name(ProcId process) const {
   switch (impl_->processes.kind(process)) {
     case ProcKind::call:
       return show(process, max_length);
-    case ProcKind::compression: {
+    case ProcKind::compression:
+    case ProcKind::graph_operator: {
       const auto builtin = static_cast<Builtin>(impl_->processes.word(process, 0));
       return std::string(info(builtin).name) + "(…)";
     }

@@ -350,6 +350,7 @@ class Printer {
               ", " + relation(EventRelationId{words[1]}, " < ") + ")"});
         break;
       case ProcKind::compression:
+      case ProcKind::graph_operator:
         then({std::string(info(static_cast<Builtin>(words[0])).name) + "(", whole(words[1]), ")"});
         break;
       case ProcKind::compressed_state:

@@ -226,6 +226,8 @@ bool StepRules::step_term(ProcId process, Steps& out) {
       return prioritise_partial(process, out);
     case ProcKind::compression:
       return compression(process, out);
+    case ProcKind::graph_operator:
+      return graph_operator(process, out);
     case ProcKind::compressed_state:
       return compressed_state(process, out);
     case ProcKind::chase:
@@ -318,6 +320,7 @@ std::optional<bool> StepRules::only_terminates(ProcId process) {
     case ProcKind::chase:
     case ProcKind::opaque:
     case ProcKind::compression:
+    case ProcKind::graph_operator:
     case ProcKind::compressed_state:
       return false;
     default:
@@ -648,11 +651,31 @@ bool StepRules::compression(ProcId process, Steps& out) {
   return true;
 }
 
+bool StepRules::graph_operator(ProcId process, Steps& out) {
+  ProcessCompressor& compressor = compressions_.compressor;
+  if (compressor.is_being_applied(process)) {
+    const auto builtin = static_cast<Builtin>(processes_.word(process, 0));
+    report(codes::graph_of_itself, process,
+           fmt::format("the process that `{0}` is applied to leads to this `{0}` of itself",
+                       info(builtin).name));
+    return false;
+  }
+  if (const auto* graph = compressor.applied(process, diagnostics_)) {
+    push(*graph, graph->lts.initial().value, out);
+    return true;
+  }
+  limit_ = compressor.limit();
+  return false;
+}
+
 bool StepRules::compressed_state(ProcId process, Steps& out) {
+  ProcessCompressor& compressor = compressions_.compressor;
+  const ProcId whole = processes_.operand(process, 0);
   const auto preserved = static_cast<Preserved>(processes_.word(process, 1));
   const std::uint32_t state = processes_.word(process, 2);
-  const auto* graph =
-      compressions_.compressor.compressed(processes_.operand(process, 0), preserved);
+  const auto* graph = processes_.kind(whole) == ProcKind::graph_operator
+                          ? compressor.applied(whole, diagnostics_)
+                          : compressor.compressed(whole, preserved);
   PERENTIE_CHECK(graph != nullptr, "a state of a graph that is not there");
   push(*graph, state, out);
   return true;

@@ -187,6 +187,10 @@ void Machine::apply_builtin(Builtin builtin, std::uint32_t operand_count,
     case Builtin::chase:
     case Builtin::chase_nocache:
       return replace(operand_count, remember_origin(processes_.chase(process_at(0))));
+    case Builtin::deter:
+      return replace(operand_count, remember_origin(processes_.unary(
+                                        ProcKind::graph_operator,
+                                        static_cast<std::uint32_t>(builtin), process_at(0))));
     default:
       break;
   }

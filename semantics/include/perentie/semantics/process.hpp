@@ -78,7 +78,7 @@ class ProcStore {
   ProcId alphabet_parallel(std::span<const std::uint32_t> words);
   ProcId binary(ProcKind kind, ProcId left, ProcId right);
   ProcId binary(ProcKind kind, std::uint32_t word, ProcId left, ProcId right);
-  /// hide, project, rename, compression: one word and one process.
+  /// hide, project, rename, compression, graph_operator: one word and one process.
   ProcId unary(ProcKind kind, std::uint32_t word, ProcId operand);
   ProcId chaos(EventSetId events);
   ProcId run(EventSetId events);

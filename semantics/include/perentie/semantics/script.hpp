@@ -103,8 +103,8 @@ class Script {
 
   /// A process term as FDR prints it, cut to `max_length` characters.
   std::string show(ProcId process, std::size_t max_length = 200) const;
-  /// The name of a process: of a call, the call; of a compression such as `normal(…)` no more than
-  /// that; empty if it has none (CSPM reference 7.3.6).
+  /// The name of a process: of a call, the call; of a compression or graph operator such as
+  /// `normal(…)` no more than that; empty if it has none (CSPM reference 7.3.6).
   std::string name(ProcId process) const;
   /// The declared channels as printed, in order of declaration.
   std::vector<std::string> channel_names() const;

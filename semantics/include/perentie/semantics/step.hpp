@@ -4,7 +4,8 @@
 // of its operands, and a named call is unfolded to its body. ✓ is treated as FDR treats it: an
 // ordinary label that every parallel operator synchronises, after which nothing happens
 // (4.1.2, 4.1.3). A compressed process has the transitions of its compressed graph, or those of the
-// process itself where the compression cannot be applied (`compression.hpp`).
+// process itself where the compression cannot be applied; a graph operator such as `deter` has
+// those of its graph or none (`compression.hpp`).
 #pragma once
 
 #include <cstdint>
@@ -97,6 +98,7 @@ class StepRules {
   bool prioritise(ProcId process, Steps& out);
   bool prioritise_partial(ProcId process, Steps& out);
   bool compression(ProcId process, Steps& out);
+  bool graph_operator(ProcId process, Steps& out);
   bool compressed_state(ProcId process, Steps& out);
   void push(const CompressedProcess& graph, std::uint32_t state, Steps& out);
   Preserved preserved(bool below_priority) const;
