@@ -59,6 +59,12 @@ bench:  ## measure; docs/performance.md has the figures
 	@$(call build,release,,-DPERENTIE_BUILD_TESTS=OFF -DPERENTIE_BUILD_BENCHMARKS=ON)
 	@for program in build/release/tests/bench/*_bench; do echo "# $$program"; $$program || exit 1; done
 
+.PHONY: bench-peers
+bench-peers:  ## measure exploration beside SPIN on the same models
+	@$(packages) program peers
+	@$(call build,release,--target perentie,-DPERENTIE_BUILD_TESTS=OFF)
+	@tests/bench/peers/run.sh build/release
+
 .PHONY: format format-check tidy
 format:  ## format all sources in place
 	@clang-format -i $(sources)
