@@ -627,6 +627,13 @@ void Machine::fail_no_match(FunctionId id) {
                    resolution_.symbols[function.symbol].qualified, arguments));
 }
 
+void Machine::external_choice(std::uint32_t operand_count) {
+  std::vector<ProcId> operands;
+  operands.reserve(operand_count);
+  for (std::size_t i = operand_count; i-- > 0;) operands.push_back(process_at(i));
+  replace(operand_count, builder_.external_choice(operands));
+}
+
 void Machine::delayed_prefix() {
   const EventId event = builder_.event(value_at(3));
   const EventId tock = builder_.event(value_at(2));
@@ -682,6 +689,9 @@ void Machine::process_instruction(Instruction in) {
       break;
     case Op::process_binary:
       replace(2, builder_.binary(static_cast<ProcKind>(in.b), process_at(1), process_at(0)));
+      break;
+    case Op::external_choice:
+      external_choice(in.b);
       break;
     case Op::process_ternary:
       replace(3, builder_.with_alphabet(static_cast<ProcKind>(in.b), process_at(2), value_at(1),

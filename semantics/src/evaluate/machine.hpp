@@ -206,6 +206,7 @@ class Machine final : public FunctionNames, public CallUnfolder {
   bool match_dot(const DotItems& pattern);
   [[noreturn]] void fail_no_match(FunctionId function);
   void delayed_prefix();
+  void external_choice(std::uint32_t operand_count);
   void timed_choice();
   [[noreturn]] void fail_unsupported(SymbolId symbol);
   void process_instruction(Instruction instruction);

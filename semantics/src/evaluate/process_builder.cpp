@@ -52,21 +52,23 @@ ProcId ProcessBuilder::event_set_prefix(ValueId set, ProcId body) {
                          : processes_.event_set_prefix(events, body);
 }
 
-ProcId ProcessBuilder::binary(ProcKind kind, ProcId left, ProcId right) {
-  if (kind == ProcKind::external_choice) {
-    // Chains of [] are one choice, without operands that are the constant STOP.
-    std::vector<ProcId> operands;
-    for (const ProcId side : {left, right}) {
-      if (side == processes_.stop()) continue;
-      if (processes_.kind(side) == ProcKind::external_choice) {
-        for (const std::uint32_t word : processes_.words(side)) operands.push_back(ProcId{word});
-      } else {
-        operands.push_back(side);
-      }
+// Choices in a choice are one, without operands that are the constant STOP.
+ProcId ProcessBuilder::external_choice(std::span<const ProcId> operands) {
+  std::vector<ProcId> all;
+  for (const ProcId operand : operands) {
+    if (operand == processes_.stop()) continue;
+    if (processes_.kind(operand) == ProcKind::external_choice) {
+      for (const std::uint32_t word : processes_.words(operand)) all.push_back(ProcId{word});
+    } else {
+      all.push_back(operand);
     }
-    return processes_.external_choice(operands);
   }
+  return processes_.external_choice(all);
+}
+
+ProcId ProcessBuilder::binary(ProcKind kind, ProcId left, ProcId right) {
   const ProcId operands[] = {left, right};
+  if (kind == ProcKind::external_choice) return external_choice(operands);
   if (kind == ProcKind::internal_choice) return processes_.internal_choice(operands);
   if (kind == ProcKind::interleave) return processes_.interleave(operands);
   return processes_.binary(kind, left, right);

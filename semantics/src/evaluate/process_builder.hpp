@@ -32,6 +32,7 @@ class ProcessBuilder {
 
   ProcId event_set_prefix(ValueId set, ProcId body);
   ProcId binary(ProcKind kind, ProcId left, ProcId right);
+  ProcId external_choice(std::span<const ProcId> operands);
   ProcId with_alphabet(ProcKind kind, ProcId left, ValueId set, ProcId right);
   ProcId alphabet_parallel(ProcId left, ValueId left_set, ValueId right_set, ProcId right);
   ProcId hide(ProcKind kind, ProcId operand, ValueId set);

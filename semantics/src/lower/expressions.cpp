@@ -331,9 +331,20 @@ void Lowering::infix_chain(ExprId expr) {
   } else {
     infix_left(op_of(*next)->op, op_of(*next)->left);
   }
-  for (; next != spine.rend(); ++next) {
+  while (next != spine.rend()) {
     span_ = tree_.exprs[*next].span;
-    infix_right(*op_of(*next));
+    if (op_of(*next)->op != InfixOp::external_choice || is_timed()) {
+      infix_right(*op_of(*next++));
+      continue;
+    }
+    // A chain is one choice: made two by two it would take time that is quadratic in its length.
+    std::uint32_t operands = 1;
+    for (; next != spine.rend() && op_of(*next)->op == InfixOp::external_choice; ++next) {
+      process(op_of(*next)->right);
+      span_ = tree_.exprs[*next].span;
+      ++operands;
+    }
+    emit(Op::external_choice, operands);
   }
 }
 
