@@ -1,10 +1,12 @@
 #include "compressor.hpp"
 
 #include <algorithm>
+#include <span>
 #include <variant>
 
 #include "perentie/lts/compressions.hpp"
 #include "perentie/lts/deterministic_extraction.hpp"
+#include "perentie/lts/watchdogs.hpp"
 #include "perentie/lts/weak_bisimulation.hpp"
 #include "perentie/semantics/process_graph.hpp"
 #include "preserved_in_script.hpp"
@@ -48,8 +50,21 @@ Compression compress_graph(const lts::Lts& lts, Builtin compression, const base:
   }
 }
 
-Compression apply_to_graph(const lts::Lts& lts, Builtin) {
-  return lts::deterministic_extraction(lts);
+struct WatchdogAlphabet {
+  std::span<const EventId> events;
+  EventId bark;
+};
+
+Compression apply_to_graph(const lts::Lts& lts, Builtin builtin, const WatchdogAlphabet& alphabet,
+                           const base::Limits& limits) {
+  switch (builtin) {
+    case Builtin::trace_watchdog:
+      return lts::trace_watchdog(lts, alphabet.events, alphabet.bark, limits);
+    case Builtin::failure_watchdog:
+      return lts::failure_watchdog(lts, alphabet.events, alphabet.bark, limits);
+    default:
+      return lts::deterministic_extraction(lts);
+  }
 }
 
 // Errors are those of the one who asked. What is said of a budget that ran out will be said of the
@@ -174,7 +189,12 @@ std::optional<CompressedProcess> Compressor::apply(ProcId term, base::Diagnostic
     if (!limit_) pass_on(heard, diagnostics);
     return std::nullopt;
   }
-  Compression graph = apply_to_graph(found.lts, builtin);
+  WatchdogAlphabet alphabet;
+  if (processes_.words(term).size() > 2) {
+    alphabet = {events_.events(EventSetId{processes_.word(term, 2)}),
+                EventId{processes_.word(term, 3)}};
+  }
+  Compression graph = apply_to_graph(found.lts, builtin, alphabet, budget_.rest());
   if (const auto* reached = std::get_if<base::LimitReached>(&graph)) {
     limit_ = *reached;
     return std::nullopt;

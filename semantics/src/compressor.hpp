@@ -20,7 +20,8 @@ namespace perentie::semantics {
 class Compressor : public ProcessCompressor {
  public:
   /// Keeps references.
-  Compressor(Script& script, ProcStore& processes) : script_(script), processes_(processes) {}
+  Compressor(Script& script, const EventTable& events, ProcStore& processes)
+      : script_(script), events_(events), processes_(processes) {}
 
   void set_limits(const base::Limits& limits);
   const CompressedProcess* compressed(ProcId term, Preserved preserved) override;
@@ -38,6 +39,7 @@ class Compressor : public ProcessCompressor {
   CompressedProcess with_terms(lts::Lts lts, ProcId term, Preserved preserved);
 
   Script& script_;
+  const EventTable& events_;
   ProcStore& processes_;
   base::Budget budget_{base::Limits{}};
   struct Known {

@@ -160,6 +160,11 @@ ProcId ProcStore::unary(ProcKind kind, std::uint32_t word, ProcId operand) {
   return intern(kind, {word, operand.value});
 }
 
+ProcId ProcStore::watchdog(Builtin builtin, ProcId specification, EventSetId events, EventId bark) {
+  return intern(ProcKind::graph_operator, {static_cast<std::uint32_t>(builtin), specification.value,
+                                           events.value, bark.value});
+}
+
 ProcId ProcStore::chaos(EventSetId events) { return intern(ProcKind::chaos, {events.value}); }
 
 ProcId ProcStore::run(EventSetId events) { return intern(ProcKind::run, {events.value}); }

@@ -187,7 +187,7 @@ std::unique_ptr<Script> Script::load(base::FileId root, base::SourceMap& sources
   auto impl = std::make_unique<Impl>(sources, std::move(tree), options);
   if (!impl->prepare(diagnostics)) return nullptr;
   auto script = std::unique_ptr<Script>(new Script(std::move(impl)));
-  script->impl_->compressor.emplace(*script, script->impl_->processes);
+  script->impl_->compressor.emplace(*script, script->impl_->events, script->impl_->processes);
   return script;
 }
 

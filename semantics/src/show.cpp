@@ -350,9 +350,19 @@ class Printer {
               ", " + relation(EventRelationId{words[1]}, " < ") + ")"});
         break;
       case ProcKind::compression:
-      case ProcKind::graph_operator:
         then({std::string(info(static_cast<Builtin>(words[0])).name) + "(", whole(words[1]), ")"});
         break;
+      case ProcKind::graph_operator: {
+        Pieces pieces{std::string(info(static_cast<Builtin>(words[0])).name) + "(",
+                      whole(words[1])};
+        if (words.size() > 2) {
+          const Piece more[] = {", ", set(2), ", ", EventId{words[3]}};
+          pieces.insert(pieces.end(), std::begin(more), std::end(more));
+        }
+        pieces.emplace_back(")");
+        then(std::move(pieces));
+        break;
+      }
       case ProcKind::compressed_state:
         then({whole(words[0]), fmt::format("#{}", words[2])});
         break;

@@ -1,4 +1,4 @@
-// The operators on whole processes that have a meaning of their own: `deter`.
+// The operators on whole processes that have a meaning of their own: `deter` and the watchdogs.
 #include <gtest/gtest.h>
 
 #include "perentie/semantics/check.hpp"
@@ -9,7 +9,8 @@
 namespace perentie::semantics {
 namespace {
 
-const std::string imports = "transparent normal\nexternal deter, prioritise\n";
+const std::string imports =
+    "transparent normal\nexternal deter, trace_watchdog, failure_watchdog, prioritise\n";
 
 ::testing::AssertionResult becomes(const std::string& process, const std::string& lts,
                                    const std::string& definitions = "") {
@@ -30,6 +31,14 @@ TEST(GraphOperatorTest, InsideOfOperators) {
   EXPECT_TRUE(becomes("deter(a -> SKIP |~| STOP) ; b -> STOP", "0 a 1; 1 tau 2; 2 b 3; 3"));
   EXPECT_TRUE(becomes("deter(deter(a -> STOP |~| b -> STOP) |~| c -> STOP)", "0 a 1; 1"));
   EXPECT_TRUE(becomes("normal(deter(a -> STOP |~| b -> STOP))", "0 a 1; 1"));
+}
+
+// CSPM reference 4.6.2 and 4.6.3.
+TEST(GraphOperatorTest, Watchdogs) {
+  EXPECT_TRUE(
+      becomes("trace_watchdog(a -> STOP, {a, b}, e)", "0 a 1; 0 b 2; 1 a 2; 1 b 2; 2 e 3; 3"));
+  EXPECT_TRUE(becomes("failure_watchdog(STOP, {a}, e)", "0 tau 0; 0 a 1; 1 e 2; 2"));
+  EXPECT_TRUE(becomes("trace_watchdog(STOP, {a}, e) ||| STOP", "0 a 1; 1 e 2; 2"));
 }
 
 // It is one process, whatever is done with it.
@@ -53,7 +62,8 @@ TEST(GraphOperatorTest, ALimitIsNeverTheIdentity) {
   TestScript script(imports + "channel a, b\nP(n) = a -> P(n + 1)\nQ(n) = a -> deter(Q(n + 1))\n");
   ASSERT_TRUE(script.loaded()) << script.messages();
   for (const std::string process :
-       {"deter(P(0))", "b -> deter(P(0))", "deter(P(0)) ||| STOP", "normal(deter(P(0)))", "Q(0)"}) {
+       {"deter(P(0))", "b -> deter(P(0))", "deter(P(0)) ||| STOP", "normal(deter(P(0)))", "Q(0)",
+        "trace_watchdog(P(0), {a}, b)", "failure_watchdog(P(0), {a}, b)"}) {
     base::Diagnostics diagnostics;
     script.script().set_limits({.max_states = 1'000});
     const auto term = script.script().process(process, diagnostics);
@@ -107,6 +117,9 @@ TEST(GraphOperatorTest, StatesAreNamedAfterTheProcess) {
   ASSERT_TRUE(term);
   EXPECT_EQ(script.script().name(*term), "deter(…)");
   EXPECT_EQ(script.script().show(*term), "deter(P)");
+  const auto watchdog = script.script().process("trace_watchdog(P, {a}, b)", diagnostics);
+  ASSERT_TRUE(watchdog);
+  EXPECT_EQ(script.script().show(*watchdog), "trace_watchdog(P, {a}, b)");
 }
 
 }  // namespace

@@ -187,6 +187,11 @@ void Machine::apply_builtin(Builtin builtin, std::uint32_t operand_count,
     case Builtin::chase:
     case Builtin::chase_nocache:
       return replace(operand_count, remember_origin(processes_.chase(process_at(0))));
+    case Builtin::trace_watchdog:
+    case Builtin::failure_watchdog:
+      return replace(operand_count, remember_origin(processes_.watchdog(
+                                        builtin, process_at(2), builder_.event_set(value_at(1)),
+                                        builder_.event(value_at(0)))));
     case Builtin::deter:
       return replace(operand_count, remember_origin(processes_.unary(
                                         ProcKind::graph_operator,

@@ -80,6 +80,7 @@ class ProcStore {
   ProcId binary(ProcKind kind, std::uint32_t word, ProcId left, ProcId right);
   /// hide, project, rename, compression, graph_operator: one word and one process.
   ProcId unary(ProcKind kind, std::uint32_t word, ProcId operand);
+  ProcId watchdog(Builtin builtin, ProcId specification, EventSetId events, EventId bark);
   ProcId chaos(EventSetId events);
   ProcId run(EventSetId events);
   ProcId chase(ProcId operand) { return intern(ProcKind::chase, {operand.value}); }
