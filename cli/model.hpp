@@ -31,7 +31,7 @@ struct BudgetOptions {
   base::Limits limits() const;
 };
 
-/// What the options about leaf compression say: `none`, or else strong bisimulation.
+/// The compression of leaves that `option` names: `none`, `sbisim` or `wbisim`.
 semantics::LeafCompression leaf_compression_of(const std::string& option);
 
 /// The texts and messages of one run of the program.

@@ -27,6 +27,13 @@ std::vector<Label> labels_on(std::span<const Edge> edges) {
   return labels;
 }
 
+bool has_tau(const Lts& lts) {
+  for (std::uint32_t s = 0; s < lts.state_count(); ++s) {
+    if (!lts.is_stable(State{s})) return true;
+  }
+  return false;
+}
+
 Lts::Lts(std::vector<std::uint64_t> rows, std::vector<Edge> edges, State initial,
          std::shared_ptr<const LabelNames> label_names)
     : rows_(std::move(rows)),

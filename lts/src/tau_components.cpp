@@ -23,11 +23,4 @@ TauComponents tau_components(const Lts& lts) {
   return result;
 }
 
-bool has_tau(const Lts& lts) {
-  for (std::uint32_t s = 0; s < lts.state_count(); ++s) {
-    if (!lts.is_stable(State{s})) return true;
-  }
-  return false;
-}
-
 }  // namespace perentie::lts

@@ -26,6 +26,4 @@ struct TauComponents {
 /// O(states + edges).
 TauComponents tau_components(const Lts& lts);
 
-bool has_tau(const Lts& lts);
-
 }  // namespace perentie::lts

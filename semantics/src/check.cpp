@@ -95,7 +95,10 @@ class Checker {
   std::optional<lts::NormalLts> normal_form(ProcId process, bool with_acceptances) {
     const auto exploration = explored(process);
     if (!exploration) return std::nullopt;
-    if (!needs_compression(exploration->lts)) {
+    // The subset construction takes very long on large graphs with many τ, and meets few sets in
+    // their quotients. Small graphs keep the nodes, and with them the counts, that FDR has.
+    constexpr std::size_t large = 10'000;
+    if (exploration->lts.state_count() < large || !lts::has_tau(exploration->lts)) {
       return normal_form(exploration->lts, with_acceptances);
     }
     const auto small = lts::delay_bisimulation(exploration->lts, options_.limits);
@@ -104,17 +107,6 @@ class Checker {
       return std::nullopt;
     }
     return normal_form(std::get<lts::Quotient>(small).lts, with_acceptances);
-  }
-
-  // The subset construction takes very long on large graphs with many τ, and meets few sets in
-  // their quotients. Small graphs keep the nodes, and with them the counts, that FDR has.
-  static bool needs_compression(const lts::Lts& lts) {
-    constexpr std::size_t large = 10'000;
-    if (lts.state_count() < large) return false;
-    for (std::uint32_t s = 0; s < lts.state_count(); ++s) {
-      if (!lts.is_stable(lts::State{s})) return true;
-    }
-    return false;
   }
 
   std::optional<lts::NormalLts> normal_form(const lts::Lts& lts, bool with_acceptances) {

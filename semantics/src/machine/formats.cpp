@@ -21,8 +21,7 @@ const EventBits* FormatTable::bits(EventSetId set) {
 }
 
 FormatTable::Place FormatTable::Place::below(ProcKind kind) const {
-  const bool is_priority = kind == ProcKind::prioritise || kind == ProcKind::prioritise_partial;
-  return {depth + 1, is_settled && stays_in_place(kind), is_below_priority || is_priority};
+  return {depth + 1, is_settled && stays_in_place(kind), is_below_priority || is_priority(kind)};
 }
 
 bool FormatTable::is_composite(ProcId term, bool is_below_priority) {
@@ -37,11 +36,10 @@ bool FormatTable::is_composite(ProcId term, bool is_below_priority) {
     const ProcKind kind = processes_.kind(next);
     found = is_parallel(kind);
     if (kind == ProcKind::compression && rules_.is_applied(next, below)) continue;
-    const bool is_priority = kind == ProcKind::prioritise || kind == ProcKind::prioritise_partial;
     const auto words = processes_.words(next);
     const RunningOperands running = running_operands(kind, words.size());
     for (std::size_t i = 0; i < running.count; ++i) {
-      stack.emplace_back(ProcId{words[running.first + i * running.stride]}, below || is_priority);
+      stack.emplace_back(ProcId{words[running.first + i * running.stride]}, below || is_priority(kind));
     }
   }
   if (term.value >= known.size()) known.resize(processes_.size());

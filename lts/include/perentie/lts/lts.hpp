@@ -82,6 +82,9 @@ class Lts {
   std::shared_ptr<const LabelNames> label_names_;
 };
 
+/// O(states).
+bool has_tau(const Lts& lts);
+
 /// Collects edges in any order and finishes them into an `Lts`.
 class LtsBuilder {
  public:

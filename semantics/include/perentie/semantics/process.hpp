@@ -52,6 +52,11 @@ constexpr bool is_parallel(ProcKind kind) {
          kind == ProcKind::alphabet_parallel || kind == ProcKind::link_parallel;
 }
 
+/// The operators of priority (4.5).
+constexpr bool is_priority(ProcKind kind) {
+  return kind == ProcKind::prioritise || kind == ProcKind::prioritise_partial;
+}
+
 /// Terms as the words that hold them.
 inline std::span<const std::uint32_t> as_words(std::span<const ProcId> terms) {
   static_assert(sizeof(ProcId) == sizeof(std::uint32_t));
