@@ -9,7 +9,6 @@
 #include <iostream>
 #include <iterator>
 #include <mutex>
-#include <thread>
 
 #include "perentie/base/check.hpp"
 
@@ -126,6 +125,7 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
   const std::size_t jobs = std::min(std::max<std::size_t>(options.jobs, 1), groups);
   base::Limits limits = options.limits;
   if (limits.max_memory_bytes && jobs > 0) *limits.max_memory_bytes /= jobs;
+  if (jobs > 0) limits.workers = std::max(limits.workers / static_cast<unsigned>(jobs), 1U);
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<std::optional<CheckedAssertion>> results(numbers.size());
@@ -213,7 +213,5 @@ ExitCode worse(ExitCode code, semantics::CheckResult::Outcome outcome) {
                                                           : ExitCode::model_error;
   return worse(code, own);
 }
-
-std::size_t default_jobs() { return std::max(std::thread::hardware_concurrency(), 1U); }
 
 }  // namespace perentie::cli

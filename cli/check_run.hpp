@@ -89,7 +89,4 @@ class CheckRun {
 ExitCode worse(ExitCode a, ExitCode b);
 ExitCode worse(ExitCode code, semantics::CheckResult::Outcome outcome);
 
-/// How many checks run side by side unless it is said: one for each processor.
-std::size_t default_jobs();
-
 }  // namespace perentie::cli

@@ -18,7 +18,7 @@ struct Options {
   std::vector<std::size_t> numbers;
   std::string format = "text";
   bool explain = false;
-  std::size_t jobs = default_jobs();
+  std::size_t jobs = processor_count();
   std::string leaf_compression = "sbisim";
   bool call_stack = false;
   BudgetOptions budget;

@@ -91,13 +91,15 @@ class FileRun {
   void check(CheckRun& script) {
     std::vector<std::size_t> numbers;
     for (std::size_t n = 1; n <= script.assertions().size(); ++n) numbers.push_back(n);
+    const unsigned workers = options_.fdr.workers.value_or(options_.budget.workers);
     CheckOptions checks{.limits = options_.budget.limits(),
-                        .jobs = options_.fdr.workers.value_or(default_jobs()),
+                        .jobs = workers,
                         .explain = options_.layout.counterexamples && !options_.layout.brief,
                         .with_components = options_.layout.divide,
                         .leaf_compression = leaf_compression_of(options_.fdr.leaf_compression),
                         .show_calls = options_.fdr.stack_traces,
                         .progress = {}};
+    checks.limits.workers = workers;
     if (!options_.layout.quiet) {
       checks.progress = [this](const lts::ExploreProgress& p) { console_.progress(p); };
     }

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <thread>
 #include <type_traits>
 #include <utility>
 
@@ -45,7 +46,11 @@ lts::Lts unexplored() {
 
 }  // namespace
 
-BudgetOptions::BudgetOptions() : max_memory(default_max_memory()) {}
+unsigned processor_count() {
+  return std::clamp(std::thread::hardware_concurrency(), 1U, max_workers);
+}
+
+BudgetOptions::BudgetOptions() : max_memory(default_max_memory()), workers(processor_count()) {}
 
 void BudgetOptions::add_to(CLI::App& app) {
   app.add_option("--max-states", max_states, "Stop after this many states (inconclusive)")
@@ -59,6 +64,12 @@ void BudgetOptions::add_to(CLI::App& app) {
   app.add_option("--timeout", timeout, "Stop after this many seconds")
       ->check(positive)
       ->group("Budgets");
+  app.add_option(
+         "--workers", workers,
+         "How many threads explore; default: one for each processor. No result depends on it")
+      ->check(CLI::Range(1U, max_workers))
+      ->type_name("N")
+      ->group("Budgets");
 }
 
 base::Limits BudgetOptions::limits() const {
@@ -68,6 +79,7 @@ base::Limits BudgetOptions::limits() const {
   if (timeout > 0) {
     limits.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout * 1000));
   }
+  limits.workers = workers;
   limits.cancelled = &interrupted();
   return limits;
 }

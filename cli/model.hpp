@@ -19,11 +19,16 @@
 
 namespace perentie::cli {
 
+inline constexpr unsigned max_workers = 1024;
+/// From 1 to `max_workers`.
+unsigned processor_count();
+
 /// The budgets of a run, as options.
 struct BudgetOptions {
   std::uint64_t max_states = 0;  ///< 0: no limit
   std::uint64_t max_memory;      ///< bytes; 0: no limit
   double timeout = 0;            ///< seconds; 0: no limit
+  unsigned workers;              ///< threads
 
   BudgetOptions();
 

@@ -52,7 +52,7 @@ std::optional<Path> search(System system, Goal goal) {
     std::size_t parent = 0;
     Edge edge;
   };
-  VisitedStates<System> visited(system, State::none_value);
+  VisitedStates<System> visited(system);
   std::vector<Step> steps;  // how each visited state was found
   std::vector<Transition<S>> successors;
 

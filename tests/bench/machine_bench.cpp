@@ -57,7 +57,9 @@ void count(benchmark::State& state, By by, const std::string& path, const std::s
       }
       state.counters["leaves"] = static_cast<double>(compilation.machine->leaves.size());
       state.counters["words"] = static_cast<double>(compilation.machine->width());
-      found = with_system(*compilation.machine, [](auto system) { return lts::count(system); });
+      found = with_system(*compilation.machine, [&](auto system) {
+        return lts::count(system, {.limits = {.workers = std::getenv("W") ? (unsigned)atoi(std::getenv("W")) : 1}});
+      });
     }
   }
   const auto states = static_cast<double>(found.states);

@@ -56,6 +56,12 @@ class GrowingArray {
     size_ = size;
   }
 
+  /// New elements are to be written before they are read. Throws std::bad_alloc.
+  void resize_for_overwrite(std::size_t size) {
+    if (size > capacity_) grow(size);
+    size_ = size;
+  }
+
   T& operator[](std::size_t i) { return items_[i]; }
   const T& operator[](std::size_t i) const { return items_[i]; }
   T& back() { return items_[size_ - 1]; }

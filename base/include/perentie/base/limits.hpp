@@ -27,6 +27,8 @@ struct Limits {
   std::optional<std::uint64_t> max_memory_bytes = {};
   std::optional<std::chrono::milliseconds> timeout = {};
   std::chrono::milliseconds time_used = {};      ///< of `timeout`, before the run began
+  /// Threads that share the work of one step, where they can. No result depends on it.
+  unsigned workers = 1;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from a signal handler or another thread
 };
 

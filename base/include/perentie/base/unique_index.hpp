@@ -1,4 +1,4 @@
-// UniqueIndex: the hash table behind hash-consing and visited sets.
+// UniqueIndex: the hash table behind hash-consing.
 //
 // It maps the content of an element to the element's 32-bit index in storage that the caller owns.
 // The table holds only indices (open addressing, linear probing, load at most 1/2), so the elements
@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 
 #include "perentie/base/check.hpp"
 #include "perentie/base/growing_array.hpp"
@@ -37,17 +36,6 @@ class UniqueIndex {
     slots_[slot] = next_index;
     ++size_;
     return {next_index, true};
-  }
-
-  /// Begins to fetch the place of a hash into the cache, for a look-up that comes soon.
-  void prefetch(std::uint64_t hash) const {
-    if (!slots_.empty()) __builtin_prefetch(&slots_[hash & mask()]);
-  }
-  /// The index at the place of a hash, which a look-up will compare first; nothing: the place is
-  /// free.
-  std::optional<std::uint32_t> candidate(std::uint64_t hash) const {
-    if (slots_.empty() || slots_[hash & mask()] == empty_slot) return std::nullopt;
-    return slots_[hash & mask()];
   }
 
   std::size_t size() const { return size_; }

@@ -7,23 +7,18 @@
 #pragma once
 
 #include <algorithm>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iterator>
 #include <optional>
-#include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "perentie/base/growing_array.hpp"
 #include "perentie/base/limits.hpp"
-#include "perentie/base/unique_index.hpp"
 #include "perentie/lts/lts.hpp"
-#include "perentie/lts/memory.hpp"
+#include "perentie/lts/successor_block.hpp"
 #include "perentie/lts/transition_system.hpp"
+#include "perentie/lts/visited_states.hpp"
 #include "perentie/lts/watch.hpp"
 
 namespace perentie::lts {
@@ -40,7 +35,8 @@ struct ExploreProgress {
 struct ExploreOptions {
   /// `max_states` counts the states found (the initial one is always kept). `max_memory_bytes`
   /// counts the states (not heap memory that they own), the visited set, the edges, and what the
-  /// system says that it holds itself.
+  /// system says that it holds itself. `workers` are used where the system is a
+  /// `SharedTransitionSystem`.
   base::Limits limits = {};
   /// Called about every 100 ms while exploration lasts.
   std::function<void(const ExploreProgress&)> progress = {};
@@ -63,70 +59,6 @@ struct Exploration {
   bool complete() const { return expanded == states.size(); }
 };
 
-/// The states that an exploration has found, each once, numbered in order of discovery.
-template <TransitionSystem System>
-class VisitedStates {
- public:
-  using S = typename System::State;
-
-  VisitedStates(System& system, std::uint64_t max_states)
-      : system_(system), max_states_(std::min<std::uint64_t>(max_states, State::none_value)) {}
-
-  /// The number of a state with this hash, known or new; nothing if it is new and one too many, and
-  /// then no further state may be added.
-  std::optional<State> add(S&& state, std::uint64_t hash) {
-    const auto [number, inserted] = index_.find_or_insert(
-        hash, static_cast<std::uint32_t>(states_.size()),
-        [&](std::uint32_t other) { return states_[other] == state; },
-        [&](std::uint32_t other) -> std::uint64_t { return system_.state_hash(states_[other]); });
-    if (inserted) {
-      if (states_.size() >= max_states_) return std::nullopt;
-      states_.push_back(std::move(state));
-    }
-    return State{number};
-  }
-
-  std::optional<State> add(S&& state) {
-    const std::uint64_t hash = system_.state_hash(state);
-    return add(std::move(state), hash);
-  }
-  /// Computes the hashes of the targets of transitions, and makes `add` cheaper for them: their
-  /// look-ups wait for memory at the same time, first the table, then the states. `expect(number)`
-  /// is told of the states that `add` will probably find.
-  template <class Expect>
-  void prefetch(std::span<const Transition<S>> transitions, std::vector<std::uint64_t>& hashes,
-                Expect expect) const {
-    hashes.clear();
-    for (const Transition<S>& transition : transitions) {
-      hashes.push_back(system_.state_hash(transition.target));
-      index_.prefetch(hashes.back());
-    }
-    for (const std::uint64_t hash : hashes) {
-      const std::optional<std::uint32_t> number = index_.candidate(hash);
-      if (!number) continue;
-      __builtin_prefetch(&states_[*number]);
-      expect(*number);
-    }
-  }
-
-  const S& operator[](std::size_t number) const { return states_[number]; }
-  std::size_t size() const { return states_.size(); }
-  std::uint64_t max_states() const { return max_states_; }
-  std::uint64_t peak_bytes(std::size_t more) const {
-    return lts::peak_bytes(states_, more) + lts::peak_bytes(index_, more);
-  }
-  std::vector<S> take() && {
-    return {std::make_move_iterator(states_.begin()), std::make_move_iterator(states_.end())};
-  }
-
- private:
-  System& system_;
-  std::uint64_t max_states_;
-  std::conditional_t<std::is_trivially_copyable_v<S>, base::GrowingArray<S>, std::vector<S>>
-      states_;
-  base::UniqueIndex index_;
-};
-
 /// The search itself. `Rows` takes the edges of one state after the other, as `LtsRowBuilder` does.
 template <TransitionSystem System, class Rows>
 class Explorer {
@@ -137,8 +69,10 @@ class Explorer {
       : system_(system),
         options_(options),
         watch_(options.limits),
-        visited_(system, std::max<std::uint64_t>(
-                             options.limits.max_states.value_or(State::none_value), 1)) {}
+        max_states_(std::clamp<std::uint64_t>(options.limits.max_states.value_or(State::none_value),
+                                              1, State::none_value)),
+        visited_(system),
+        block_(system, visited_, options.limits.workers) {}
 
   void run() {
     visited_.add(system_.initial());
@@ -148,77 +82,68 @@ class Explorer {
 
   Exploration<S> exploration() && {
     const std::size_t expanded = rows_.row_count();
-    Lts lts = std::move(rows_).finish(State{0}, visited_.size(), system_.label_names());
-    return {std::move(lts), std::move(visited_).take(), expanded, fired_, limit_, failed_};
+    const std::size_t found = state_count();
+    Lts lts = std::move(rows_).finish(State{0}, found, system_.label_names());
+    return {std::move(lts), std::move(visited_).take(found), expanded, fired_, limit_, failed_};
   }
 
   /// What there is to say so far.
   ExploreProgress progress() const {
-    return {visited_.size(),
-            fired_,
-            ply_,
-            visited_.size() - rows_.row_count(),
-            peak_bytes(0),
-            watch_.budget().elapsed_seconds()};
+    return {state_count(), fired_,
+            ply_,          state_count() - rows_.row_count(),
+            peak_bytes(0), watch_.budget().elapsed_seconds()};
   }
   std::optional<base::LimitReached> limit() const { return limit_; }
   bool failed() const { return failed_; }
 
  private:
-  /// So many states are expanded together that the look-ups of their successors can wait for memory
-  /// at the same time. The result does not depend on it.
-  static constexpr std::size_t block_size = 16;
+  std::uint64_t state_count() const {
+    return std::min<std::uint64_t>(visited_.size(), max_states_);
+  }
 
-  /// Computes the rows of the next few states. False if exploration ends with them.
+  bool goes_on() {
+    if (!watch_.due()) return true;
+    limit_ = watch_.look();
+    if (!limit_ && options_.progress && watch_.report_due()) options_.progress(progress());
+    return !limit_;
+  }
+
+  /// Computes the rows of the next few states, up to the first that a limit or a failure excludes.
+  /// False if exploration ends with them.
   bool expand_block() {
-    compute_successors();
-    if (const auto reached = watch_.budget().check_memory(peak_bytes(successors_.size()))) {
+    const std::size_t first = rows_.row_count();
+    block_.compute(
+        block_.size(visited_.size() - first),
+        [&](std::size_t i) { return State{static_cast<std::uint32_t>(first + i)}; },
+        [&] { return goes_on(); });
+    if (const auto reached = watch_.budget().check_memory(peak_bytes(block_.transition_count()))) {
       limit_ = reached;
       return false;
     }
-    visited_.prefetch(successors_, hashes_, [](std::uint32_t) {});
-    std::size_t begin = 0;
-    for (const std::size_t end : row_ends_) {
-      if (!add_row(begin, end)) return false;
-      begin = end;
+    if (visited_.size() + block_.transition_count() >= State::none_value) {
+      limit_ = base::LimitReached{base::LimitKind::states, max_states_};
+      return false;
     }
+    block_.number_targets();
+    block_.for_each_row([&](const auto& row) { return add_row(row); });
+    failed_ = !limit_ && block_.failed();
     return !limit_ && !failed_;
   }
 
-  /// Computes the successors of the next few states, up to the first that a limit or a failure
-  /// excludes.
-  void compute_successors() {
-    successors_.clear();
-    row_ends_.clear();
-    const std::size_t first = rows_.row_count();
-    const std::size_t last = std::min(visited_.size(), first + block_size);
-    for (std::size_t s = first; s < last; ++s) {
-      if (watch_.due()) {
-        limit_ = watch_.look();
-        if (limit_) return;
-        if (options_.progress && watch_.report_due()) options_.progress(progress());
-      }
-      failed_ = !system_.successors(visited_[s], successors_);
-      if (failed_) return;
-      row_ends_.push_back(successors_.size());
-    }
-  }
-
-  /// Adds the row of the next state, whose successors are [begin, end). False if there are too many
-  /// states.
-  bool add_row(std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto target = visited_.add(std::move(successors_[i].target), hashes_[i]);
-      if (!target) {
-        limit_ = base::LimitReached{base::LimitKind::states, visited_.max_states()};
+  /// Adds the row of the next state. False if there are too many states.
+  bool add_row(const typename SuccessorBlock<System>::Row& row) {
+    for (std::size_t i = 0; i < row.targets.size(); ++i) {
+      if (row.targets[i].value >= max_states_) {
+        limit_ = base::LimitReached{base::LimitKind::states, max_states_};
         return false;
       }
-      rows_.add_edge(successors_[i].label, *target);
+      found_ = std::max(found_, row.targets[i].value + 1);
+      rows_.add_edge(row.transitions[i].label, row.targets[i]);
     }
     rows_.end_row();
-    fired_ += end - begin;
+    fired_ += row.targets.size();
     if (rows_.row_count() == ply_end_) {
-      ply_end_ = visited_.size();
+      ply_end_ = found_;
       ++ply_;
     }
     return true;
@@ -233,12 +158,12 @@ class Explorer {
   System& system_;
   const ExploreOptions& options_;
   Watch watch_;
+  std::uint64_t max_states_;
   VisitedStates<System> visited_;
   Rows rows_;
-  std::vector<Transition<S>> successors_;  // of the states in work
-  std::vector<std::size_t> row_ends_;      // where the successors of each end
-  std::vector<std::uint64_t> hashes_;      // of the successors
+  SuccessorBlock<System> block_;  // of the states in work
   std::uint64_t fired_ = 0;
+  std::uint32_t found_ = 1;  // states, up to the last row
   std::uint64_t ply_ = 0;    // of the next state without a row
   std::size_t ply_end_ = 1;  // the first state of the ply after it
   std::optional<base::LimitReached> limit_;

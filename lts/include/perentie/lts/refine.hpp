@@ -22,6 +22,8 @@
 #include "perentie/lts/memory.hpp"
 #include "perentie/lts/runs.hpp"
 #include "perentie/lts/specifications.hpp"
+#include "perentie/lts/successor_block.hpp"
+#include "perentie/lts/visited_states.hpp"
 #include "perentie/lts/watch.hpp"
 
 namespace perentie::lts {
@@ -70,10 +72,13 @@ class RefinementSearch {
         model_(model),
         options_(options),
         watch_(options.limits),
-        states_(system, State::none_value) {}
+        states_(system),
+        block_(system, states_, options.limits.workers),
+        ahead_(system, states_, 1) {}
 
   RefineResult<S> run() && {
-    add({State{0}, *states_.add(system_.initial())}, 0, {});
+    states_.add(system_.initial());
+    add({State{0}, State{0}}, 0, {});
     std::size_t level_end = 1;
     while (visited_ < pairs_.size() && goes_on()) {
       if (visited_ == level_end) {
@@ -82,7 +87,7 @@ class RefinementSearch {
         ++result_.counts.plys;
         level_end = pairs_.size();
       }
-      visit_block(std::min(level_end, visited_ + block_size));
+      visit_block(level_end);
     }
     if (!result_.counterexample && goes_on()) ++result_.counts.plys;
     return finish(result_.counterexample ? level_end : pairs_.size());
@@ -138,32 +143,23 @@ class RefinementSearch {
     }
   }
 
-  // Transitions of one state or several, and the hashes of their targets.
-  struct Successors {
-    std::vector<Transition<S>> transitions;
-    std::vector<std::uint64_t> hashes;
-  };
+  using Row = typename SuccessorBlock<System>::Row;
 
-  void prefetch(Successors& successors) {
-    states_.prefetch(successors.transitions, successors.hashes, [&](std::uint32_t number) {
-      if (number < first_node_.size()) __builtin_prefetch(&first_node_[number]);
-    });
+  // Numbers the targets of a block. False if there are too many states.
+  bool number_targets(SuccessorBlock<System>& block) {
+    if (states_.size() + block.transition_count() >= State::none_value) {
+      result_.limit = base::LimitReached{base::LimitKind::states, State::none_value};
+      return false;
+    }
+    block.number_targets();
+    return true;
   }
 
-  // Numbers the targets of the transitions [begin, end). False if there are too many states.
-  bool make_row(Successors& successors, std::size_t begin, std::size_t end,
-                std::vector<Edge>& row) {
-    row.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-      Transition<S>& transition = successors.transitions[i];
-      const auto target = states_.add(std::move(transition.target), successors.hashes[i]);
-      if (!target) {
-        result_.limit = base::LimitReached{base::LimitKind::states, State::none_value};
-        return false;
-      }
-      row.push_back({transition.label, *target});
+  static void make_edges(const Row& row, std::vector<Edge>& edges) {
+    edges.clear();
+    for (std::size_t i = 0; i < row.targets.size(); ++i) {
+      edges.push_back({row.transitions[i].label, row.targets[i]});
     }
-    return true;
   }
 
   // Looks at the clock and at the memory now and then.
@@ -185,52 +181,43 @@ class RefinementSearch {
     return !result_.limit;
   }
 
-  // The successors of a few pairs are computed together, so that the look-ups of theirs can wait
-  // for memory at the same time. The result does not depend on how many.
-  static constexpr std::size_t block_size = 16;
-
-  void visit_block(std::size_t last) {
-    successors_.transitions.clear();
-    row_ends_.clear();
-    bool has_failed = false;
-    for (std::size_t p = visited_; p < last && !has_failed; ++p) {
-      if (!is_within_budget()) return;
-      const State state = pairs_[p].state;
-      has_failed =
-          !has_row(state) && !system_.successors(states_[state.value], successors_.transitions);
-      if (!has_failed) row_ends_.push_back(successors_.transitions.size());
-    }
-    if (!result_.counterexample) prefetch(successors_);
-    std::size_t begin = 0;
-    for (const std::size_t end : row_ends_) {
-      visit(begin, end);
-      if (!goes_on()) return;
-      begin = end;
-    }
-    result_.failed = has_failed;
+  // Visits pairs of this level.
+  void visit_block(std::size_t level_end) {
+    const std::size_t first = visited_;
+    block_.compute(
+        block_.size(level_end - first),
+        [&](std::size_t i) {
+          const State state = pairs_[first + i].state;
+          return has_row(state) ? State{} : state;
+        },
+        [&] { return is_within_budget(); });
+    if (result_.limit) return;
+    if (!result_.counterexample && !number_targets(block_)) return;
+    block_.for_each_row([&](const Row& row) {
+      visit(row);
+      return goes_on();
+    });
+    result_.failed = goes_on() && block_.failed();
   }
 
-  // The next pair, whose successors are [begin, end) if the row of its state is not known. Targets
-  // are numbered only if there is a use for them.
-  void visit(std::size_t begin, std::size_t end) {
+  // The next pair, which has this row if that of its state is not known.
+  void visit(const Row& row) {
     const std::size_t p = visited_++;
     const auto [node, state] = pairs_[p];
     const bool is_known = has_row(state);
     if (is_known) edges_ = rows_[row_of_[state.value]];
-    result_.counts.transitions += is_known ? edges_.size() : end - begin;
+    result_.counts.transitions += is_known ? edges_.size() : row.transitions.size();
     if (result_.counterexample) return;  // only counted
     const bool divergences = model_ == SemanticModel::failures_divergences;
     // After a divergence of the specification everything is allowed (5.2.3).
     if (divergences && specification_.allows_divergence(node)) return;
-    const auto error =
-        is_known ? follow(node, edges_)
-                 : follow(node, std::span(successors_.transitions).subspan(begin, end - begin));
+    const auto error = is_known ? follow(node, edges_) : follow(node, row.transitions);
     if (error) {
       refute(Counterexample<S>::Kind::event, p).event = *error;
       return;
     }
     if (!is_known) {
-      if (!make_row(successors_, begin, end, row_)) return;
+      make_edges(row, row_);
       edges_ = row_;
     }
     if (model_ != SemanticModel::traces && refutes_failures(p)) return;
@@ -345,11 +332,14 @@ class RefinementSearch {
   // What is computed here before its state is visited is kept for the visit.
   bool compute_row(State state) {
     if (!is_within_budget()) return false;
-    ahead_.transitions.clear();
-    result_.failed = !system_.successors(states_[state.value], ahead_.transitions);
-    if (result_.failed) return false;
-    prefetch(ahead_);
-    if (!make_row(ahead_, 0, ahead_.transitions.size(), row_ahead_)) return false;
+    ahead_.compute(
+        1, [&](std::size_t) { return state; }, [] { return true; });
+    result_.failed = ahead_.failed();
+    if (result_.failed || !number_targets(ahead_)) return false;
+    ahead_.for_each_row([&](const Row& row) {
+      make_edges(row, row_ahead_);
+      return true;
+    });
     if (row_of_.size() < states_.size()) row_of_.resize(states_.size(), no_row);
     row_of_[state.value] = static_cast<std::uint32_t>(rows_.size());
     rows_.add(row_ahead_);
@@ -371,19 +361,18 @@ class RefinementSearch {
   base::UniqueIndex further_index_;       // of these
   std::size_t visited_ = 0;               // pairs
 
-  Successors successors_;              // of the pairs in work
-  std::vector<std::size_t> row_ends_;  // where those of each end
-  std::vector<Edge> row_;              // of the pair in work, if it was not known
-  std::span<const Edge> edges_;        // of the pair in work
-  std::vector<State> nodes_;           // that these lead to
-  std::vector<Label> offered_;         // by the pair in work
+  SuccessorBlock<System> block_;  // of the pairs in work
+  std::vector<Edge> row_;         // of the pair in work, if it was not known
+  std::span<const Edge> edges_;   // of the pair in work
+  std::vector<State> nodes_;      // that these lead to
+  std::vector<Label> offered_;    // by the pair in work
 
   std::vector<Divergence> divergence_;  // by state
   std::vector<Step> path_;
   std::vector<State> tau_targets_;
   Runs<Edge> rows_;                    // of states that a search has passed
   std::vector<std::uint32_t> row_of_;  // by state
-  Successors ahead_;                   // of the state in work of a search
+  SuccessorBlock<System> ahead_;       // of the state in work of a search
   std::vector<Edge> row_ahead_;
 
   RefineResult<S> result_;
