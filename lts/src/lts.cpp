@@ -111,6 +111,11 @@ void LtsRowBuilder::end_row() {
   rows_.push_back(edges_.size());
 }
 
+void LtsRowBuilder::add_row(std::span<const Edge> edges) {
+  edges_.insert(edges_.end(), edges.begin(), edges.end());
+  end_row();
+}
+
 std::uint64_t LtsRowBuilder::peak_bytes(std::size_t edges) const {
   return lts::peak_bytes(rows_, 1) + lts::peak_bytes(edges_, edges);
 }

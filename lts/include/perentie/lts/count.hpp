@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "perentie/lts/explore.hpp"
 
@@ -26,11 +27,10 @@ struct Count {
   bool complete() const { return expanded == states; }
 };
 
-/// Takes edges and forgets them.
+/// Takes rows and forgets them.
 class RowCounter {
  public:
-  void add_edge(Label, State) {}
-  void end_row() { ++rows_; }
+  void add_row(std::span<const Edge>) { ++rows_; }
   std::size_t row_count() const { return rows_; }
   std::uint64_t peak_bytes(std::size_t) const { return 0; }
 

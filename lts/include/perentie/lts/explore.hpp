@@ -59,7 +59,7 @@ struct Exploration {
   bool complete() const { return expanded == states.size(); }
 };
 
-/// The search itself. `Rows` takes the edges of one state after the other, as `LtsRowBuilder` does.
+/// The search itself. `Rows` takes the rows of one state after the other, as `LtsRowBuilder` does.
 template <TransitionSystem System, class Rows>
 class Explorer {
  public:
@@ -132,16 +132,15 @@ class Explorer {
 
   /// Adds the row of the next state. False if there are too many states.
   bool add_row(const typename SuccessorBlock<System>::Row& row) {
-    for (std::size_t i = 0; i < row.targets.size(); ++i) {
-      if (row.targets[i].value >= max_states_) {
+    for (const Edge& edge : row.edges) {
+      if (edge.target.value >= max_states_) {
         limit_ = base::LimitReached{base::LimitKind::states, max_states_};
         return false;
       }
-      found_ = std::max(found_, row.targets[i].value + 1);
-      rows_.add_edge(row.transitions[i].label, row.targets[i]);
+      found_ = std::max(found_, edge.target.value + 1);
     }
-    rows_.end_row();
-    fired_ += row.targets.size();
+    rows_.add_row(row.edges);
+    fired_ += row.edges.size();
     if (rows_.row_count() == ply_end_) {
       ply_end_ = found_;
       ++ply_;

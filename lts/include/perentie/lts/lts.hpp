@@ -118,6 +118,8 @@ class LtsRowBuilder {
   void add_edge(Label label, State target) { edges_.push_back({label, target}); }
   /// Sorts the row in hand, removes its duplicate edges, and begins the row of the next state.
   void end_row();
+  /// The row of the next state in one step.
+  void add_row(std::span<const Edge> edges);
   /// Drops the edges of the row in hand.
   void drop_row() { edges_.resize(rows_.back()); }
 

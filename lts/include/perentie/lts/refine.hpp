@@ -155,13 +155,6 @@ class RefinementSearch {
     return true;
   }
 
-  static void make_edges(const Row& row, std::vector<Edge>& edges) {
-    edges.clear();
-    for (std::size_t i = 0; i < row.targets.size(); ++i) {
-      edges.push_back({row.transitions[i].label, row.targets[i]});
-    }
-  }
-
   // Looks at the clock and at the memory now and then.
   bool is_within_budget() {
     if (!watch_.due()) return true;
@@ -205,20 +198,15 @@ class RefinementSearch {
     const std::size_t p = visited_++;
     const auto [node, state] = pairs_[p];
     const bool is_known = has_row(state);
-    if (is_known) edges_ = rows_[row_of_[state.value]];
-    result_.counts.transitions += is_known ? edges_.size() : row.transitions.size();
+    edges_ = is_known ? rows_[row_of_[state.value]] : row.edges;
+    result_.counts.transitions += is_known ? edges_.size() : row.size;
     if (result_.counterexample) return;  // only counted
     const bool divergences = model_ == SemanticModel::failures_divergences;
     // After a divergence of the specification everything is allowed (5.2.3).
     if (divergences && specification_.allows_divergence(node)) return;
-    const auto error = is_known ? follow(node, edges_) : follow(node, row.transitions);
-    if (error) {
+    if (const auto error = follow(node)) {
       refute(Counterexample<S>::Kind::event, p).event = *error;
       return;
-    }
-    if (!is_known) {
-      make_edges(row, row_);
-      edges_ = row_;
     }
     if (model_ != SemanticModel::traces && refutes_failures(p)) return;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -228,12 +216,11 @@ class RefinementSearch {
   }
 
   // Finds the nodes that labels lead to, or the first label that leads to none.
-  template <class Labelled>
-  std::optional<Label> follow(State node, std::span<Labelled> steps) {
+  std::optional<Label> follow(State node) {
     nodes_.clear();
-    for (const auto& step : steps) {
-      const auto next = step.label == tau ? node : specification_.next(node, step.label);
-      if (!next) return step.label;
+    for (const Edge& edge : edges_) {
+      const auto next = edge.label == tau ? node : specification_.next(node, edge.label);
+      if (!next) return edge.label;
       nodes_.push_back(*next);
     }
     return std::nullopt;
@@ -336,13 +323,12 @@ class RefinementSearch {
         1, [&](std::size_t) { return state; }, [] { return true; });
     result_.failed = ahead_.failed();
     if (result_.failed || !number_targets(ahead_)) return false;
-    ahead_.for_each_row([&](const Row& row) {
-      make_edges(row, row_ahead_);
-      return true;
-    });
     if (row_of_.size() < states_.size()) row_of_.resize(states_.size(), no_row);
     row_of_[state.value] = static_cast<std::uint32_t>(rows_.size());
-    rows_.add(row_ahead_);
+    ahead_.for_each_row([&](const Row& row) {
+      rows_.add(row.edges);
+      return true;
+    });
     return true;
   }
 
@@ -362,7 +348,6 @@ class RefinementSearch {
   std::size_t visited_ = 0;               // pairs
 
   SuccessorBlock<System> block_;  // of the pairs in work
-  std::vector<Edge> row_;         // of the pair in work, if it was not known
   std::span<const Edge> edges_;   // of the pair in work
   std::vector<State> nodes_;      // that these lead to
   std::vector<Label> offered_;    // by the pair in work
@@ -373,7 +358,6 @@ class RefinementSearch {
   Runs<Edge> rows_;                    // of states that a search has passed
   std::vector<std::uint32_t> row_of_;  // by state
   SuccessorBlock<System> ahead_;       // of the state in work of a search
-  std::vector<Edge> row_ahead_;
 
   RefineResult<S> result_;
 };

@@ -103,10 +103,10 @@ class SuccessorBlock {
     for_each_part([&](unsigned p) { set_targets(parts_[p]); });
   }
 
-  /// A transition with the number of its target, if targets were numbered.
+  /// The transitions of a state.
   struct Row {
-    std::span<const Transition<S>> transitions;
-    std::span<const State> targets;
+    std::size_t size;             ///< how many there are
+    std::span<const Edge> edges;  ///< they, if targets were numbered
   };
 
   /// Calls `visit(row)` for each row that was computed, in the order of states, until it returns
@@ -114,13 +114,11 @@ class SuccessorBlock {
   template <class Visit>
   void for_each_row(Visit visit) const {
     for (unsigned p = 0; p < part_count_; ++p) {
-      const Part& part = parts_[p];
+      const std::span<const Edge> edges = parts_[p].edges;
       std::size_t begin = 0;
-      for (const std::size_t end : part.row_ends) {
-        const std::size_t count = end - begin;
-        Row row{std::span(part.transitions).subspan(begin, count), {}};
-        if (!part.targets.empty()) row.targets = std::span(part.targets).subspan(begin, count);
-        if (!visit(row)) return;
+      for (const std::size_t end : parts_[p].row_ends) {
+        const std::size_t size = end - begin;
+        if (!visit(Row{size, edges.empty() ? edges : edges.subspan(begin, size)})) return;
         begin = end;
       }
     }
@@ -140,8 +138,8 @@ class SuccessorBlock {
     bool is_whole = true;               // no row is missing
     bool failed = false;                // because the system could not compute it
 
+    std::vector<Edge> edges;             // the transitions, with the numbers of targets
     std::vector<std::uint64_t> places;   // of the targets; their hashes before
-    std::vector<State> targets;          // their numbers
     std::vector<std::uint32_t> unknown;  // transitions to states that were not visited before
     std::vector<std::uint32_t> first;    // those that lead to such a state first
     std::uint32_t first_claim = 0;       // of the first transition
@@ -165,7 +163,7 @@ class SuccessorBlock {
   void compute_part(Part& part, std::size_t first, std::size_t last, StateOf state_of,
                     GoesOn goes_on) {
     part.transitions.clear();
-    part.targets.clear();
+    part.edges.clear();
     part.row_ends.clear();
     part.is_whole = false;
     part.failed = false;
@@ -185,7 +183,7 @@ class SuccessorBlock {
     const std::size_t count = part.transitions.size();
     part.unknown.clear();
     part.places.resize(count);
-    part.targets.resize(count);
+    part.edges.resize(count);
     for (std::size_t begin = 0; begin < count; begin += at_once) {
       const std::size_t end = std::min(begin + at_once, count);
       for (std::size_t i = begin; i < end; ++i) {
@@ -198,7 +196,7 @@ class SuccessorBlock {
             visited_.claim(part.transitions[i].target, part.places[i], part.claim_of(i),
                            [&](std::uint32_t claimed) { return &claimant(claimed).target; });
         const std::uint32_t number = visited_.number(part.places[i]);
-        part.targets[i] = State{number};
+        part.edges[i] = {part.transitions[i].label, State{number}};
         if (number >= known) part.unknown.push_back(static_cast<std::uint32_t>(i));
       }
     }
@@ -221,7 +219,7 @@ class SuccessorBlock {
 
   void set_targets(Part& part) {
     for (const std::uint32_t i : part.unknown) {
-      part.targets[i] = State{visited_.number(part.places[i])};
+      part.edges[i].target = State{visited_.number(part.places[i])};
     }
   }
 
