@@ -185,6 +185,20 @@ TEST(ExploreTest, FailureKeepsWhatIsKnown) {
   EXPECT_EQ(to_text(result.lts), "0 a 1; 0 b 2; 1 a 3; 1 b 4; 2 a 4; 2 b 5; 3; 4; 5");
 }
 
+TEST(ExploreTest, TransitionsBeforeAFailureDoNotCount) {
+  struct Partial : Counters {
+    bool successors(const State& s, std::vector<Transition<State>>& out) {
+      return Counters::successors(s, out) && s.a != 1;
+    }
+  };
+  Partial system;
+  system.bound = 2;
+  const auto result = explore(system);
+  EXPECT_TRUE(result.failed);
+  EXPECT_EQ(result.expanded, 1U);
+  EXPECT_EQ(to_text(result.lts), "0 a 1; 0 b 2; 1; 2");
+}
+
 TEST(ExploreTest, ReportsProgressAtItsLeisure) {
   struct Slow : Counters {
     bool successors(const State& s, std::vector<Transition<State>>& out) {

@@ -171,7 +171,10 @@ class SuccessorBlock {
       if (!goes_on()) return;
       const State state = state_of(i);
       part.failed = state && !system_.successors(visited_[state.value], part.transitions);
-      if (part.failed) return;
+      if (part.failed) {
+        part.transitions.resize(part.row_ends.empty() ? 0 : part.row_ends.back());
+        return;
+      }
       part.row_ends.push_back(part.transitions.size());
     }
     part.is_whole = true;
