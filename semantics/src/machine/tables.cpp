@@ -148,17 +148,20 @@ class TableMaker {
     for (std::uint32_t l = 0; l < leaves_.size(); ++l) {
       if (!plans_[l].led.empty()) machine_.leaders.push_back(l);
       for (std::uint32_t s = 0; s < state_count(l); ++s) {
-        machine_.lead_rows.push_back(static_cast<std::uint32_t>(machine_.leads.size()));
-        machine_.follow_rows.push_back(static_cast<std::uint32_t>(machine_.follows.size()));
+        begin_row();
         machine_.row_terms.push_back(s < leaves_[l]->state_count() ? leaves_[l]->states[s]
                                                                    : ProcId{});
         if (s < leaves_[l]->state_count()) add_row(l, s);
         if (std::max(machine_.leads.size(), machine_.follows.size()) > max_entries) return false;
       }
     }
-    machine_.lead_rows.push_back(static_cast<std::uint32_t>(machine_.leads.size()));
-    machine_.follow_rows.push_back(static_cast<std::uint32_t>(machine_.follows.size()));
+    begin_row();
     return true;
+  }
+
+  void begin_row() {
+    machine_.rows.push_back({static_cast<std::uint32_t>(machine_.leads.size()),
+                             static_cast<std::uint32_t>(machine_.follows.size()), 0});
   }
 
   void add_row(std::uint32_t l, std::uint32_t state) {
@@ -177,6 +180,7 @@ class TableMaker {
       }
       if (const auto port = plan.ports.find(edge.label); port != plan.ports.end()) {
         machine_.follows.push_back({change, port->second});
+        machine_.rows.back().ports |= std::uint64_t{1} << (port->second % 64);
       }
     }
     std::stable_sort(machine_.follows.begin() + static_cast<std::ptrdiff_t>(first_follow),
@@ -204,8 +208,8 @@ std::optional<CompiledMachine> make_tables(const std::vector<const LeafGraph*>& 
 
 std::uint64_t CompiledMachine::memory_bytes() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
-  return bytes(leaves) + bytes(leaders) + bytes(lead_rows) + bytes(follow_rows) + bytes(leads) +
-         bytes(follows) + bytes(rules) + bytes(partners) + bytes(row_terms);
+  return bytes(leaves) + bytes(leaders) + bytes(rows) + bytes(leads) + bytes(follows) +
+         bytes(rules) + bytes(partners) + bytes(row_terms);
 }
 
 }  // namespace perentie::semantics

@@ -83,6 +83,13 @@ struct CompiledMachine {
     std::uint32_t first_rule;
     std::uint32_t end_rule;
   };
+  /// A state of a leaf: where what it can do begins, which ends with the next row.
+  struct Row {
+    std::uint32_t first_lead;
+    std::uint32_t first_follow;
+    /// The ports of its follows modulo 64, as bits: most rules that cannot fire are known by them.
+    std::uint64_t ports;
+  };
   /// Something that a leaf can do when another leaf leads. `port` numbers its events.
   struct Follow {
     std::uint64_t change;
@@ -99,9 +106,8 @@ struct CompiledMachine {
   };
 
   std::vector<Leaf> leaves;
-  std::vector<std::uint32_t> leaders;      ///< leaves that lead some rule
-  std::vector<std::uint32_t> lead_rows;    ///< by row: offsets into `leads`, one more than rows
-  std::vector<std::uint32_t> follow_rows;  ///< by row: offsets into `follows`, one more than rows
+  std::vector<std::uint32_t> leaders;  ///< leaves that lead some rule
+  std::vector<Row> rows;               ///< of the leaves, one after the other, and an end
   std::vector<Lead> leads;
   std::vector<Follow> follows;  ///< of each row, by port
   std::vector<Rule> rules;
@@ -163,14 +169,15 @@ class MachineSystem {
   bool successors(const State& state, Steps& out) const {
     for (const std::uint32_t leader : machine_->leaders) {
       const CompiledMachine::Leaf& leaf = machine_->leaves[leader];
-      const std::size_t row = machine_row(leaf, state);
-      const std::uint32_t end = machine_->lead_rows[row + 1];
-      for (std::uint32_t i = machine_->lead_rows[row]; i < end; ++i) {
+      const CompiledMachine::Row* row = &machine_->rows[machine_row(leaf, state)];
+      const std::uint32_t end = row[1].first_lead;
+      for (std::uint32_t i = row->first_lead; i < end; ++i) {
         const CompiledMachine::Lead& lead = machine_->leads[i];
         State target = state;
         target[leaf.word] ^= lead.change;
         for (std::uint32_t r = lead.first_rule; r < lead.end_rule; ++r) {
-          fire(machine_->rules[r], state, target, out);
+          const CompiledMachine::Rule& rule = machine_->rules[r];
+          if (may_fire(rule, state)) fire(rule, state, target, out);
         }
       }
     }
@@ -186,13 +193,27 @@ class MachineSystem {
   std::uint64_t memory_bytes() const { return machine_->memory_bytes(); }
 
  private:
+  const CompiledMachine::Row* row_of(const CompiledMachine::Partner& partner,
+                                     const State& state) const {
+    return &machine_->rows[machine_row(machine_->leaves[partner.leaf], state)];
+  }
+
+  /// False: some partner cannot take part.
+  bool may_fire(const CompiledMachine::Rule& rule, const State& state) const {
+    for (std::uint32_t p = rule.first_partner; p < rule.end_partner; ++p) {
+      const CompiledMachine::Partner& partner = machine_->partners[p];
+      if ((row_of(partner, state)->ports >> (partner.port % 64) & 1U) == 0) return false;
+    }
+    return true;
+  }
+
   /// What a partner can do in a rule.
   std::pair<const CompiledMachine::Follow*, const CompiledMachine::Follow*> moves(
       const CompiledMachine::Partner& partner, const State& state) const {
     constexpr std::ptrdiff_t short_row = 8;
-    const std::size_t row = machine_row(machine_->leaves[partner.leaf], state);
-    const CompiledMachine::Follow* first = machine_->follows.data() + machine_->follow_rows[row];
-    const CompiledMachine::Follow* last = machine_->follows.data() + machine_->follow_rows[row + 1];
+    const CompiledMachine::Row* row = row_of(partner, state);
+    const CompiledMachine::Follow* first = machine_->follows.data() + row[0].first_follow;
+    const CompiledMachine::Follow* last = machine_->follows.data() + row[1].first_follow;
     if (last - first > short_row) {
       first = std::lower_bound(first, last, partner.port,
                                [](const auto& f, std::uint32_t port) { return f.port < port; });
