@@ -186,11 +186,32 @@ class RefinementSearch {
         [&] { return is_within_budget(); });
     if (result_.limit) return;
     if (!result_.counterexample && !number_targets(block_)) return;
+    fetch(first);
     block_.for_each_row([&](const Row& row) {
       visit(row);
       return goes_on();
     });
     result_.failed = goes_on() && block_.failed();
+  }
+
+  // Begins to fetch what visits of the pairs of the block, the first of which is given, will read.
+  void fetch(std::size_t first) {
+    const auto fetch_nodes = [&](std::span<const Edge> edges) {
+      for (const Edge& edge : edges) {
+        if (edge.target.value >= first_node_.size()) continue;
+        __builtin_prefetch(&first_node_[edge.target.value]);
+      }
+    };
+    known_rows_.clear();
+    block_.for_each_row([&](const Row& row) {
+      fetch_nodes(row.edges);
+      const State state = pairs_[first++].state;
+      if (!has_row(state)) return true;
+      known_rows_.push_back(rows_[row_of_[state.value]]);
+      __builtin_prefetch(known_rows_.back().data());
+      return true;
+    });
+    for (const std::span<const Edge> row : known_rows_) fetch_nodes(row);
   }
 
   // The next pair, which has this row if that of its state is not known.
@@ -282,7 +303,7 @@ class RefinementSearch {
         case Divergence::no:
           break;
         case Divergence::unknown:
-          if (!compute_row(target)) return false;
+          if (!has_row(target) && !compute_rows(target)) return false;
           enter(target, rows_[row_of_[target.value]]);
           break;
         case Divergence::open:
@@ -316,20 +337,34 @@ class RefinementSearch {
     return state.value < row_of_.size() && row_of_[state.value] != no_row;
   }
 
-  // What is computed here before its state is visited is kept for the visit.
-  bool compute_row(State state) {
+  // What is computed here before its state is visited is kept for the visit. The targets that will
+  // be entered next, unless there is a divergence, come along: their look-ups can wait for memory
+  // at the same time. Not so where a computation may fail.
+  bool compute_rows(State state) {
     if (!is_within_budget()) return false;
+    states_ahead_.clear();
+    plan_row(state);
+    if constexpr (SharedTransitionSystem<System>) {
+      for (std::size_t i = path_.back().first_target; i < tau_targets_.size(); ++i) {
+        const State next = tau_targets_[i];
+        if (!has_row(next) && divergence_of(next) == Divergence::unknown) plan_row(next);
+      }
+    }
     ahead_.compute(
-        1, [&](std::size_t) { return state; }, [] { return true; });
+        states_ahead_.size(), [&](std::size_t i) { return states_ahead_[i]; }, [] { return true; });
     result_.failed = ahead_.failed();
     if (result_.failed || !number_targets(ahead_)) return false;
-    if (row_of_.size() < states_.size()) row_of_.resize(states_.size(), no_row);
-    row_of_[state.value] = static_cast<std::uint32_t>(rows_.size());
     ahead_.for_each_row([&](const Row& row) {
       rows_.add(row.edges);
       return true;
     });
     return true;
+  }
+
+  void plan_row(State state) {
+    if (row_of_.size() < states_.size()) row_of_.resize(states_.size(), no_row);
+    row_of_[state.value] = static_cast<std::uint32_t>(rows_.size() + states_ahead_.size());
+    states_ahead_.push_back(state);
   }
 
   static constexpr std::uint32_t no_row = State::none_value;
@@ -355,9 +390,11 @@ class RefinementSearch {
   std::vector<Divergence> divergence_;  // by state
   std::vector<Step> path_;
   std::vector<State> tau_targets_;
-  Runs<Edge> rows_;                    // of states that a search has passed
-  std::vector<std::uint32_t> row_of_;  // by state
-  SuccessorBlock<System> ahead_;       // of the state in work of a search
+  Runs<Edge> rows_;                                // of states that a search has passed
+  std::vector<std::uint32_t> row_of_;              // by state
+  std::vector<std::span<const Edge>> known_rows_;  // of a block
+  std::vector<State> states_ahead_;                // whose rows a search computes
+  SuccessorBlock<System> ahead_;                   // of the state in work of a search
 
   RefineResult<S> result_;
 };
