@@ -49,13 +49,9 @@ class LabelTable {
 
   /// `spelling` must stay where it is.
   Label find_or_add(std::string_view spelling) {
-    const auto hash = [](std::string_view text) {
-      return std::uint64_t{std::hash<std::string_view>{}(text)};
-    };
     const auto [number, is_new] = index_.find_or_insert(
-        hash(spelling), static_cast<std::uint32_t>(spellings_.size()),
-        [&](std::uint32_t i) { return spellings_[i].text == spelling; },
-        [&](std::uint32_t i) { return hash(spellings_[i].text); });
+        std::hash<std::string_view>{}(spelling), static_cast<std::uint32_t>(spellings_.size()),
+        [&](std::uint32_t i) { return spellings_[i].text == spelling; });
     if (is_new) spellings_.push_back({spelling, interpret(spelling)});
     return spellings_[number].label;
   }

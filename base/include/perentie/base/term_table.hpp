@@ -20,9 +20,8 @@ class TermTable {
   /// The index of the term. `words` may lie inside this table.
   std::uint32_t intern(std::uint8_t tag, std::span<const std::uint32_t> words) {
     const auto next = static_cast<std::uint32_t>(heads_.size());
-    const auto result = index_.find_or_insert(
-        hash_words(words, tag), next, [&](std::uint32_t i) { return is(i, tag, words); },
-        [&](std::uint32_t i) { return hash_words(this->words(i), heads_[i].tag); });
+    const auto result = index_.find_or_insert(hash_words(words, tag), next,
+                                              [&](std::uint32_t i) { return is(i, tag, words); });
     if (result.inserted) append(tag, words);
     return result.index;
   }

@@ -2,7 +2,7 @@
 // before the memory is taken, not noticed after.
 //
 // A vector that outgrows its block holds the old block and the used part of the new one at the same
-// time; a hash table doubles.
+// time.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "perentie/base/growing_array.hpp"
-#include "perentie/base/unique_index.hpp"
 
 namespace perentie::lts {
 
@@ -26,14 +25,6 @@ std::uint64_t peak_bytes(const std::vector<T>& vector, std::size_t more) {
 template <class T>
 std::uint64_t peak_bytes(const base::GrowingArray<T>& array, std::size_t more) {
   return (static_cast<std::uint64_t>(array.size()) + more) * sizeof(T);
-}
-
-/// The bytes in use once `more` elements are inserted.
-inline std::uint64_t peak_bytes(const base::UniqueIndex& index, std::size_t more) {
-  const std::uint64_t needed = 2 * sizeof(std::uint32_t) * (index.size() + more);
-  std::uint64_t bytes = index.memory_bytes();
-  while (bytes < needed) bytes = bytes == 0 ? needed : bytes * 2;
-  return bytes;
 }
 
 }  // namespace perentie::lts

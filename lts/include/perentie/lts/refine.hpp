@@ -122,15 +122,12 @@ class RefinementSearch {
     if (!first) {
       first = pair.node;
     } else {
-      const auto hash = [](const Pair& p) {
-        return base::hash_mix(0, (std::uint64_t{p.node.value} << 32U) | p.state.value);
-      };
+      const std::uint64_t hash =
+          base::hash_mix(0, (std::uint64_t{pair.node.value} << 32U) | pair.state.value);
       const bool is_new =
           further_index_
-              .find_or_insert(
-                  hash(pair), static_cast<std::uint32_t>(further_pairs_.size()),
-                  [&](std::uint32_t other) { return further_pairs_[other] == pair; },
-                  [&](std::uint32_t other) { return hash(further_pairs_[other]); })
+              .find_or_insert(hash, static_cast<std::uint32_t>(further_pairs_.size()),
+                              [&](std::uint32_t other) { return further_pairs_[other] == pair; })
               .inserted;
       if (!is_new) return;
       further_pairs_.push_back(pair);
@@ -162,8 +159,8 @@ class RefinementSearch {
     if (!result_.limit) {
       std::uint64_t bytes = states_.peak_bytes(1) + lts::peak_bytes(pairs_, 1) +
                             lts::peak_bytes(arrivals_, 1) + lts::peak_bytes(first_node_, 1) +
-                            lts::peak_bytes(further_pairs_, 1) +
-                            lts::peak_bytes(further_index_, 1) + lts::peak_bytes(divergence_, 1);
+                            lts::peak_bytes(further_pairs_, 1) + further_index_.peak_bytes(1) +
+                            lts::peak_bytes(divergence_, 1);
       if constexpr (requires { system_.memory_bytes(); }) bytes += system_.memory_bytes();
       result_.limit = watch_.budget().check_memory(bytes);
       if (options_.progress && watch_.report_due()) {

@@ -55,8 +55,7 @@ class UniqueRuns {
   IdT add(std::span<const T> run, std::uint64_t max = IdT::none_value) {
     const auto result = index_.find_or_insert(
         hash(run), static_cast<std::uint32_t>(runs_.size()),
-        [&](std::uint32_t other) { return std::ranges::equal(runs_[other], run); },
-        [&](std::uint32_t other) { return hash(runs_[other]); });
+        [&](std::uint32_t other) { return std::ranges::equal(runs_[other], run); });
     if (result.inserted) {
       if (runs_.size() >= max) return IdT{};
       runs_.add(run);
@@ -67,7 +66,7 @@ class UniqueRuns {
   std::span<const T> operator[](IdT id) const { return runs_[id.value]; }
   std::size_t size() const { return runs_.size(); }
   std::uint64_t peak_bytes(std::size_t length) const {
-    return runs_.peak_bytes(length) + lts::peak_bytes(index_, 1);
+    return runs_.peak_bytes(length) + index_.peak_bytes(1);
   }
   Runs<T> take() && { return std::move(runs_); }
 
