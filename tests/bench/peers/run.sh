@@ -1,6 +1,7 @@
 #!/bin/sh
-# Explores models in CSPM by perentie and their twins in Promela by SPIN, in turn, five times each, and
-# prints the medians of the seconds with their ratio. The counts of states must be equal.
+# Explores models in CSPM by perentie and their twins in Promela by SPIN, in turn, on one processor,
+# five times each, and prints the medians of the seconds with their ratio. The counts of states must
+# be equal.
 #
 #   tests/bench/peers/run.sh BUILD
 set -eu
@@ -25,7 +26,7 @@ compare() { # MODEL N SCRIPT
   : >"$work/ours"
   : >"$work/theirs"
   for _ in 1 2 3 4 5; do
-    seconds_of "$build/perentie" lts "$3" -p "SYSTEM($2)" --stats >>"$work/ours"
+    seconds_of "$build/perentie" lts "$3" -p "SYSTEM($2)" --stats --workers 1 >>"$work/ours"
     our_states=$(awk '/^whole:/ { gsub(",", "", $2); print $2 }' "$work/output")
     seconds_of "$work/$1" -E >>"$work/theirs"
     their_states=$(awk '/states, stored/ { print $1 }' "$work/output")
