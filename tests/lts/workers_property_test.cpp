@@ -92,6 +92,29 @@ RC_GTEST_PROP(WorkersPropertyTest, ExplorationDoesNotDependOnThem, ()) {
   RC_ASSERT(counted.plies == count_alone.plies);
 }
 
+// The first states say nothing about how many transitions come later.
+TEST(WorkersPropertyTest, BlocksOfDenseStatesEndEarly) {
+  struct Dense : WideSystem {
+    bool successors(State s, std::vector<Transition<State>>& out) const {
+      if (s < 2'000) {
+        out.push_back({tau, 2 * s + 1});
+        out.push_back({tau, 2 * s + 2});
+        return true;
+      }
+      for (State i = 0; i < 3'000; ++i) out.push_back({tick, (s * 17 + i * 31) % 5'000});
+      return true;
+    }
+  };
+  Dense system;
+  const Count alone = count(system);
+  const Count together = count(system, {.limits = {.workers = 3}});
+  EXPECT_EQ(alone.states, 5'000U);
+  EXPECT_EQ(alone.transitions, 2 * 2'000U + 3'000U * 3'000U);
+  EXPECT_EQ(together.states, alone.states);
+  EXPECT_EQ(together.transitions, alone.transitions);
+  EXPECT_EQ(together.plies, alone.plies);
+}
+
 RC_GTEST_PROP(WorkersPropertyTest, RefinementDoesNotDependOnThem, ()) {
   WideSystem system = arbitrary_wide_system();
   // A specification of a few nodes that allows most: the first differences are far away or absent.

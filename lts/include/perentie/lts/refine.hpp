@@ -351,10 +351,14 @@ class RefinementSearch {
         states_ahead_.size(), [&](std::size_t i) { return states_ahead_[i]; }, [] { return true; });
     result_.failed = ahead_.failed();
     if (result_.failed || !number_targets(ahead_)) return false;
+    const std::size_t first_row = rows_.size();
     ahead_.for_each_row([&](const Row& row) {
       rows_.add(row.edges);
       return true;
     });
+    for (std::size_t i = rows_.size() - first_row; i < states_ahead_.size(); ++i) {
+      row_of_[states_ahead_[i].value] = no_row;  // the block has ended early
+    }
     return true;
   }
 

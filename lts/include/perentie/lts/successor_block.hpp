@@ -53,7 +53,8 @@ class SuccessorBlock {
     return std::min(available, states * workers_.count());
   }
 
-  /// Computes the rows of `count` states; `state_of(i)` is the i-th, or none for an empty row.
+  /// Computes the rows of `count` states, or of the first of them if these have very many
+  /// transitions; `state_of(i)` is the i-th, or none for an empty row.
   /// `goes_on()`, which is asked before each state on this thread, ends the block early if it says
   /// no.
   template <class StateOf, class GoesOn>
@@ -73,16 +74,19 @@ class SuccessorBlock {
                                            [](const Part& part) { return !part.is_whole; }) -
                               parts_.begin() + 1);
     transition_count_ = 0;
-    for (unsigned p = 0; p < part_count_; ++p) transition_count_ += parts_[p].transitions.size();
-    average_ = std::max<std::size_t>(transition_count_ / std::max<std::size_t>(count, 1), 1);
+    std::size_t row_count = 0;
+    for (unsigned p = 0; p < part_count_; ++p) {
+      transition_count_ += parts_[p].transitions.size();
+      row_count += parts_[p].row_ends.size();
+    }
+    average_ = std::max<std::size_t>(transition_count_ / std::max<std::size_t>(row_count, 1), 1);
   }
 
   std::size_t transition_count() const { return transition_count_; }
   /// Whether the system could not compute the row that would be the next.
   bool failed() const { return parts_[part_count_ - 1].failed; }
 
-  /// Adds the targets that are new to the visited states. Both together must be fewer than 2^32
-  /// - 1.
+  /// Adds the targets that are new to the visited states; 2^32 - 1 is more than both together.
   void number_targets() {
     const std::size_t known = visited_.size();
     visited_.make_room(transition_count_, workers_);
@@ -129,8 +133,9 @@ class SuccessorBlock {
   static constexpr std::size_t batch = 16;
   // So many states for each worker are worth waking it.
   static constexpr std::size_t worthwhile = 64;
-  // What a worker's part of a block aims at.
+  // What a worker's part of a block aims at, and where it ends early.
   static constexpr std::size_t part_transitions = 16'384;
+  static constexpr std::size_t most_transitions = 8 * part_transitions;
 
   struct Part {
     std::vector<Transition<S>> transitions;
@@ -168,7 +173,7 @@ class SuccessorBlock {
     part.is_whole = false;
     part.failed = false;
     for (std::size_t i = first; i < last; ++i) {
-      if (!goes_on()) return;
+      if (!goes_on() || part.transitions.size() >= most_transitions) return;
       const State state = state_of(i);
       part.failed = state && !system_.successors(visited_[state.value], part.transitions);
       if (part.failed) {
