@@ -4,6 +4,7 @@
 // docs/cli.md says what is done here.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 
@@ -91,7 +92,8 @@ class FileRun {
   void check(CheckRun& script) {
     std::vector<std::size_t> numbers;
     for (std::size_t n = 1; n <= script.assertions().size(); ++n) numbers.push_back(n);
-    const unsigned workers = options_.fdr.workers.value_or(options_.budget.workers);
+    const auto workers = static_cast<unsigned>(
+        std::min<std::size_t>(options_.fdr.workers.value_or(options_.budget.workers), max_workers));
     CheckOptions checks{.limits = options_.budget.limits(),
                         .jobs = workers,
                         .explain = options_.layout.counterexamples && !options_.layout.brief,

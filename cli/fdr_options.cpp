@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "model.hpp"
-
 namespace perentie::cli {
 namespace {
 
@@ -71,7 +69,7 @@ void add_fdr_options(CLI::App& app, FdrOptions& options) {
   const CLI::Range positive(std::size_t{1}, std::size_t{1'000'000});
   app.add_option("--refinement-bfs-workers", options.workers,
                  "How many threads check, several assertions side by side or one together")
-      ->check(CLI::Range(1U, max_workers))
+      ->check(positive)
       ->type_name("N")
       ->group(group);
   app.add_option("--refinement-desired-counterexample-count", options.desired_counterexamples,

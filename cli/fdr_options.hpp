@@ -13,7 +13,7 @@
 namespace perentie::cli {
 
 struct FdrOptions {
-  std::optional<unsigned> workers;          ///< refinement.bfs.workers
+  std::optional<std::size_t> workers;       ///< refinement.bfs.workers
   std::size_t desired_counterexamples = 1;  ///< refinement.desired_counterexample_count
   bool track_history = true;                ///< refinement.track_history: counterexamples
   bool range_checks = true;                 ///< cspm.runtime_range_checks

@@ -93,6 +93,17 @@ TEST(LtsTest, AnExhaustedBudgetWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+TEST(LtsTest, WorkersChangeNothing) {
+  const auto graph = [](const char* workers) {
+    return perentie({"-q", "lts", "corpus/philosophers/philosophers.csp", "-p", "SYSTEM(5)",
+                     "--workers", workers});
+  };
+  const Outcome alone = graph("1");
+  EXPECT_THAT(alone.output, StartsWith("des (0,34240,7774)\n"));
+  EXPECT_EQ(graph("3").output, alone.output);
+  EXPECT_EQ(graph("0").exit_code, 2);
+}
+
 TEST(LtsTest, ErrorsOfTheModelAndOfFiles) {
   const TemporaryFolder folder;
   EXPECT_EQ(perentie({"lts", folder.file("m.csp", "P = ("), "-p", "P"}).exit_code, 3);

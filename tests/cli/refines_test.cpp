@@ -301,6 +301,7 @@ TEST(RefinesTest, OptionsOfFdrAreRead) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(refines(two, {"--compiler-leaf-compression=often"}).exit_code, 2);
   EXPECT_EQ(refines(two, {"--refinement-bfs-workers", "0"}).exit_code, 2);
+  EXPECT_EQ(refines(two, {"--refinement-bfs-workers", "5000"}).exit_code, 0);
   EXPECT_EQ(refines(two, {"--no-such-flag"}).exit_code, 2);
   EXPECT_EQ(refines(two, {"--format", "html"}).exit_code, 2);
   const Outcome archive = refines(two, {"--archive", "out"});

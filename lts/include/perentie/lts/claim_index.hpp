@@ -1,8 +1,8 @@
 // ClaimIndex: the hash table of a visited set, in which several threads can look and insert at
 // once.
 //
-// Like base::UniqueIndex it holds only numbers (open addressing, linear probing, load at most 1/2);
-// the elements live with the caller. An element has the least number that was ever claimed for it,
+// It holds only numbers (open addressing, linear probing, load at most 1/2), four bytes each; the
+// elements live with the caller. An element has the least number that was ever claimed for it,
 // whatever the order of the claims was.
 #pragma once
 
