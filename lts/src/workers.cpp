@@ -28,13 +28,16 @@ Workers::~Workers() {
 }
 
 void Workers::run(const std::function<void(unsigned)>& part) {
-  if (threads_.size() + 1 < count_) hire();
+  if (!has_hired_) hire();
   part_ = &part;
   thrown_.assign(count_, nullptr);
   working_ = static_cast<std::uint32_t>(threads_.size());
   ++task_;
   task_.notify_all();
   do_part(0);
+  for (auto worker = static_cast<unsigned>(threads_.size() + 1); worker < count_; ++worker) {
+    do_part(worker);
+  }
   for (std::uint32_t left = working_; left != 0; left = working_) wait_for_change(working_, left);
   for (const std::exception_ptr& thrown : thrown_) {
     if (thrown) std::rethrow_exception(thrown);
@@ -42,13 +45,13 @@ void Workers::run(const std::function<void(unsigned)>& part) {
 }
 
 void Workers::hire() {
+  has_hired_ = true;
   try {
-    while (threads_.size() + 1 < count_) {
-      const auto worker = static_cast<unsigned>(threads_.size() + 1);
+    for (unsigned worker = 1; worker < count_; ++worker) {
       threads_.emplace_back([this, worker] { work(worker); });
     }
   } catch (const std::system_error&) {
-    count_ = static_cast<unsigned>(threads_.size() + 1);
+    // The system has no more threads.
   }
 }
 

@@ -1,7 +1,11 @@
 // Workers: every part is done, on as many threads as are asked for, and failures come out.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <fstream>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -53,6 +57,38 @@ TEST(WorkersTest, AnExceptionComesOutWhenAllHaveEnded) {
   EXPECT_EQ(ended, 3);
   workers.run([&](unsigned) { ++ended; });
   EXPECT_EQ(ended, 6) << "they go on";
+}
+
+// What the system gives no thread for is done all the same: a block that lacked a part would be
+// taken for a whole one.
+TEST(WorkersTest, PartsWithoutAThreadAreDoneByTheCaller) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers do not live with little address space";
+#endif
+  constexpr unsigned count = 64;
+  constexpr rlim_t room = rlim_t{64} << 20U;  // for a few stacks
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  rlimit little = before;
+  little.rlim_cur = pages * static_cast<std::size_t>(getpagesize()) + room;
+  std::vector<int> done(count, 0);
+  std::vector<std::thread::id> ids(count);
+  Workers workers(count);
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &little), 0);
+  for (int task = 0; task < 10; ++task) {
+    workers.run([&](unsigned worker) {
+      ++done[worker];
+      ids[worker] = std::this_thread::get_id();
+    });
+  }
+  ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_EQ(done, std::vector<int>(count, 10));
+  EXPECT_EQ(workers.count(), count);
+  if (std::ranges::count(ids, std::this_thread::get_id()) == 1) {
+    GTEST_SKIP() << "the system gave all threads";
+  }
 }
 
 TEST(WorkersTest, NoneIsOne) {

@@ -26,8 +26,9 @@ struct Limits {
   std::optional<std::uint64_t> max_states = {};
   std::optional<std::uint64_t> max_memory_bytes = {};
   std::optional<std::chrono::milliseconds> timeout = {};
-  std::chrono::milliseconds time_used = {};      ///< of `timeout`, before the run began
-  /// Threads that share the work of one step, where they can. No result depends on it.
+  std::chrono::milliseconds time_used = {};  ///< of `timeout`, before the run began
+  /// Threads that share the work of one step, where they can. No result depends on it, but how far
+  /// a search comes that memory or time ends.
   unsigned workers = 1;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from a signal handler or another thread
 };
