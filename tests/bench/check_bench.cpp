@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "perentie/base/source.hpp"
-#include "perentie/lts/count.hpp"
 #include "perentie/semantics/check.hpp"
-#include "perentie/semantics/process_system.hpp"
+#include "perentie/semantics/process_graph.hpp"
 #include "perentie/semantics/script.hpp"
 
 namespace perentie::semantics {
@@ -64,10 +63,7 @@ double explore(const std::string& process, std::uint64_t& states) {
   Loaded loaded(process + " :[deadlock free]");
   const auto begin = std::chrono::steady_clock::now();
   const auto term = loaded.script->process(process, loaded.diagnostics);
-  const lts::Count found = with_process_system(
-      *loaded.script, *term, {}, loaded.diagnostics,
-      [](auto& system, const lts::ExploreOptions& options) { return lts::count(system, options); });
-  states = found.states;
+  states = count_process(*loaded.script, *term, {}, loaded.diagnostics).states;
   return seconds_since(begin);
 }
 

@@ -39,7 +39,8 @@ bool FormatTable::is_composite(ProcId term, bool is_below_priority) {
     const auto words = processes_.words(next);
     const RunningOperands running = running_operands(kind, words.size());
     for (std::size_t i = 0; i < running.count; ++i) {
-      stack.emplace_back(ProcId{words[running.first + i * running.stride]}, below || is_priority(kind));
+      stack.emplace_back(ProcId{words[running.first + i * running.stride]},
+                         below || is_priority(kind));
     }
   }
   if (term.value >= known.size()) known.resize(processes_.size());

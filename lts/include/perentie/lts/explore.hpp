@@ -120,11 +120,10 @@ class Explorer {
       limit_ = reached;
       return false;
     }
-    if (visited_.size() + block_.transition_count() >= State::none_value) {
+    if (!block_.number_targets()) {
       limit_ = base::LimitReached{base::LimitKind::states, max_states_};
       return false;
     }
-    block_.number_targets();
     block_.for_each_row([&](const auto& row) { return add_row(row); });
     failed_ = !limit_ && block_.failed();
     return !limit_ && !failed_;

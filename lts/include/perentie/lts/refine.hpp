@@ -144,12 +144,9 @@ class RefinementSearch {
 
   // Numbers the targets of a block. False if there are too many states.
   bool number_targets(SuccessorBlock<System>& block) {
-    if (states_.size() + block.transition_count() >= State::none_value) {
-      result_.limit = base::LimitReached{base::LimitKind::states, State::none_value};
-      return false;
-    }
-    block.number_targets();
-    return true;
+    const bool done = block.number_targets();
+    if (!done) result_.limit = base::LimitReached{base::LimitKind::states, State::none_value};
+    return done;
   }
 
   // Looks at the clock and at the memory now and then.

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "perentie/lts/lts.hpp"
@@ -86,9 +87,11 @@ class SuccessorBlock {
   /// Whether the system could not compute the row that would be the next.
   bool failed() const { return parts_[part_count_ - 1].failed; }
 
-  /// Adds the targets that are new to the visited states; 2^32 - 1 is more than both together.
-  void number_targets() {
+  /// Adds the targets that are new to the visited states. False, and nothing is done, if there may
+  /// be more of both than numbers.
+  bool number_targets() {
     const std::size_t known = visited_.size();
+    if (known + transition_count_ >= State::none_value) return false;
     visited_.make_room(transition_count_, workers_);
     std::size_t claim_number = known;
     for (unsigned p = 0; p < part_count_; ++p) {
@@ -105,6 +108,7 @@ class SuccessorBlock {
     visited_.extend(size - known);
     for_each_part([&](unsigned p) { set_new_states(parts_[p]); });
     for_each_part([&](unsigned p) { set_targets(parts_[p]); });
+    return true;
   }
 
   /// The transitions of a state.
@@ -221,7 +225,7 @@ class SuccessorBlock {
   void set_new_states(Part& part) {
     std::uint32_t number = part.first_number;
     for (const std::uint32_t i : part.first) {
-      visited_.set(number++, part.places[i], S(part.transitions[i].target));
+      visited_.set(number++, part.places[i], std::move(part.transitions[i].target));
     }
   }
 
