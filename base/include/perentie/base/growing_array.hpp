@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -31,7 +32,7 @@ class GrowingArray {
     swap(taken);
     return *this;
   }
-  GrowingArray(const GrowingArray& other) { append(other.begin(), other.size()); }
+  GrowingArray(const GrowingArray& other) { append({other.begin(), other.size()}); }
   GrowingArray& operator=(const GrowingArray& other) {
     GrowingArray copy(other);
     swap(copy);
@@ -48,6 +49,12 @@ class GrowingArray {
     } else {
       new (items_ + size_++) T(item);
     }
+  }
+  /// `items` are not ours. Throws std::bad_alloc.
+  void append(std::span<const T> items) {
+    if (size_ + items.size() > capacity_) grow(size_ + items.size());
+    std::uninitialized_copy(items.begin(), items.end(), items_ + size_);
+    size_ += items.size();
   }
   /// New elements are copies of `value`. Throws std::bad_alloc.
   void resize(std::size_t size, const T& value = T()) {
@@ -77,12 +84,6 @@ class GrowingArray {
     std::swap(items_, other.items_);
     std::swap(size_, other.size_);
     std::swap(capacity_, other.capacity_);
-  }
-
-  void append(const T* items, std::size_t count) {
-    if (size_ + count > capacity_) grow(size_ + count);
-    std::uninitialized_copy_n(items, count, items_ + size_);
-    size_ += count;
   }
 
   void grow(std::size_t needed) {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "perentie/base/growing_array.hpp"
 #include "perentie/base/hash.hpp"
 #include "perentie/base/unique_index.hpp"
 #include "perentie/lts/memory.hpp"
@@ -23,13 +24,13 @@ template <class T>
 class Runs {
  public:
   void add(std::span<const T> run) {
-    items_.insert(items_.end(), run.begin(), run.end());
+    items_.append(run);
     ends_.push_back(items_.size());
   }
 
   std::span<const T> operator[](std::size_t i) const {
     const std::uint64_t begin = i == 0 ? 0 : ends_[i - 1];
-    return std::span<const T>(items_).subspan(begin, ends_[i] - begin);
+    return {items_.begin() + begin, static_cast<std::size_t>(ends_[i] - begin)};
   }
 
   std::size_t size() const { return ends_.size(); }
@@ -39,8 +40,8 @@ class Runs {
   }
 
  private:
-  std::vector<std::uint64_t> ends_;
-  std::vector<T> items_;
+  base::GrowingArray<std::uint64_t> ends_;
+  base::GrowingArray<T> items_;
 };
 
 /// Runs are numbered by `IdT`, a `base::Id`, in order of first appearance.

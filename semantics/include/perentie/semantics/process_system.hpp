@@ -85,8 +85,8 @@ struct ProcessTrial {
   std::uint64_t states;
 };
 inline constexpr ProcessTrial process_trials[] = {
-    {1'000, 50'000},
-    {20'000, 1'000'000},
+    {20'000, 50'000},
+    {200'000, 1'000'000},
     {1'000'000, 50'000'000},
 };
 
