@@ -1,6 +1,8 @@
 #include "perentie/lts/lts.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "perentie/base/check.hpp"
 #include "perentie/lts/memory.hpp"
@@ -9,10 +11,8 @@ namespace perentie::lts {
 
 namespace {
 
-using EdgeIterator = std::vector<Edge>::iterator;
-
 /// Sorts a row and moves its duplicates behind the returned end.
-EdgeIterator sort_row(EdgeIterator first, EdgeIterator last) {
+Edge* sort_row(Edge* first, Edge* last) {
   if (!std::is_sorted(first, last)) std::sort(first, last);
   return std::unique(first, last);
 }
@@ -34,7 +34,7 @@ bool has_tau(const Lts& lts) {
   return false;
 }
 
-Lts::Lts(std::vector<std::uint64_t> rows, std::vector<Edge> edges, State initial,
+Lts::Lts(base::GrowingArray<std::uint64_t> rows, base::GrowingArray<Edge> edges, State initial,
          std::shared_ptr<const LabelNames> label_names)
     : rows_(std::move(rows)),
       edges_(std::move(edges)),
@@ -80,39 +80,40 @@ void LtsBuilder::add_edge(State source, Label label, State target) {
 
 Lts LtsBuilder::finish(State initial) && {
   // Counting sort by source, then each row on its own.
-  std::vector<std::uint64_t> ends(state_count_ + 1, 0);
+  base::GrowingArray<std::uint64_t> ends;
+  ends.resize(state_count_ + std::size_t{1});
   for (const SourcedEdge& e : edges_) {
     PERENTIE_CHECK(e.source.value < state_count_, "an edge leaves a state that does not exist");
-    ++ends[e.source.value + 1];
+    ++ends[e.source.value + std::size_t{1}];
   }
-  for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
-  std::vector<Edge> sorted(edges_.size());
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  base::GrowingArray<Edge> sorted;
+  sorted.resize(edges_.size());
   std::vector<std::uint64_t> next(ends.begin(), ends.end() - 1);
   for (const SourcedEdge& e : edges_) sorted[next[e.source.value]++] = e.edge;
   edges_.clear();
   edges_.shrink_to_fit();
 
-  auto write = sorted.begin();
-  std::uint64_t row_begin = 0;
+  Edge* write = sorted.begin();
+  Edge* first = sorted.begin();
   for (std::uint32_t s = 0; s < state_count_; ++s) {
-    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(row_begin);
-    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(ends[s + 1]);
-    row_begin = ends[s + 1];
+    Edge* const last = sorted.begin() + ends[s + std::size_t{1}];
     write = std::move(first, sort_row(first, last), write);
-    ends[s + 1] = static_cast<std::uint64_t>(write - sorted.begin());
+    first = last;
+    ends[s + std::size_t{1}] = static_cast<std::uint64_t>(write - sorted.begin());
   }
-  sorted.erase(write, sorted.end());
+  sorted.resize(static_cast<std::size_t>(write - sorted.begin()));
   return Lts(std::move(ends), std::move(sorted), initial, std::move(label_names_));
 }
 
 void LtsRowBuilder::end_row() {
-  const auto first = edges_.begin() + static_cast<std::ptrdiff_t>(rows_.back());
-  edges_.erase(sort_row(first, edges_.end()), edges_.end());
+  Edge* const end = sort_row(edges_.begin() + rows_.back(), edges_.end());
+  edges_.resize(static_cast<std::size_t>(end - edges_.begin()));
   rows_.push_back(edges_.size());
 }
 
 void LtsRowBuilder::add_row(std::span<const Edge> edges) {
-  edges_.insert(edges_.end(), edges.begin(), edges.end());
+  edges_.append(edges);
   end_row();
 }
 

@@ -13,7 +13,10 @@ constexpr std::uint32_t free_slot = ~std::uint32_t{0};
 
 }  // namespace
 
-Partition::Partition(std::uint32_t size) : elements_(size), position_(size), block_of_(size, 0) {
+Partition::Partition(std::uint32_t size) {
+  elements_.resize_for_overwrite(size);
+  position_.resize_for_overwrite(size);
+  block_of_.resize(size, 0);
   std::iota(elements_.begin(), elements_.end(), 0U);
   std::iota(position_.begin(), position_.end(), 0U);
   if (size > 0) blocks_.push_back({0, size, 0});

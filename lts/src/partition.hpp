@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "perentie/base/growing_array.hpp"
+
 namespace perentie::lts {
 
 class Partition {
@@ -25,8 +27,7 @@ class Partition {
   std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
   std::uint32_t block_of(std::uint32_t element) const { return block_of_[element]; }
   std::span<const std::uint32_t> members(std::uint32_t block) const {
-    return std::span<const std::uint32_t>(elements_).subspan(
-        blocks_[block].begin, blocks_[block].end - blocks_[block].begin);
+    return {elements_.begin() + blocks_[block].begin, elements_.begin() + blocks_[block].end};
   }
   std::uint32_t size_of(std::uint32_t block) const {
     return blocks_[block].end - blocks_[block].begin;
@@ -55,10 +56,10 @@ class Partition {
   void find_parts(const Block& block, std::span<const std::uint64_t> keys);
   void arrange_parts(const Block& block);
 
-  std::vector<std::uint32_t> elements_;
-  std::vector<std::uint32_t> position_;  // by element: where it is in elements_
-  std::vector<std::uint32_t> block_of_;
-  std::vector<Block> blocks_;
+  base::GrowingArray<std::uint32_t> elements_;
+  base::GrowingArray<std::uint32_t> position_;  // by element: where it is in elements_
+  base::GrowingArray<std::uint32_t> block_of_;
+  base::GrowingArray<Block> blocks_;
 
   // Scratch of one split.
   std::vector<std::uint32_t> touched_;     // blocks with changed elements

@@ -9,6 +9,7 @@
 #include "discovery.hpp"
 #include "partition.hpp"
 #include "perentie/base/check.hpp"
+#include "perentie/base/growing_array.hpp"
 #include "perentie/base/hash.hpp"
 #include "perentie/lts/bisimulation.hpp"
 #include "stable_partition.hpp"
@@ -23,9 +24,9 @@ class Refinement {
  public:
   Refinement(const Lts& lts, std::span<const std::uint32_t> classes, std::uint64_t seed)
       : seed_(seed),
-        signatures_(lts.state_count(), 0),
         is_changed_(lts.state_count(), 0),
         partition_(static_cast<std::uint32_t>(lts.state_count())) {
+    signatures_.resize(lts.state_count(), 0);
     take_edges(lts);
     changed_.resize(lts.state_count());
     for (std::uint32_t s = 0; s < changed_.size(); ++s) {
@@ -75,13 +76,12 @@ class Refinement {
   void take_edges(const Lts& lts) {
     PERENTIE_CHECK(lts.edge_count() < none, "an Lts has 2^32 edges or more");
     const auto states = static_cast<std::uint32_t>(lts.state_count());
-    rows_.assign(states + std::size_t{1}, 0);
+    rows_.resize(states + std::size_t{1}, 0);
     for (std::uint32_t s = 0; s < states; ++s) {
       for (const Edge& edge : lts.edges(State{s})) ++rows_[edge.target.value + std::size_t{1}];
     }
     for (std::size_t i = 1; i < rows_.size(); ++i) rows_[i] += rows_[i - 1];
     in_edges_.resize(lts.edge_count());
-    groups_.reserve(lts.edge_count());
     for (std::uint32_t s = 0; s < states; ++s) {
       Label label;
       for (const Edge& edge : lts.edges(State{s})) {
@@ -103,7 +103,7 @@ class Refinement {
   /// The round's new blocks state by state, so that memory can be fetched ahead over all of them.
   void move_edges(std::span<const Partition::Split> splits) {
     constexpr std::size_t ahead = 8;
-    moved_.clear();
+    moved_.resize(0);
     for (const Partition::Split& split : splits) {
       for (const std::uint32_t s : partition_.members(split.block)) moved_.push_back({s, split});
     }
@@ -116,7 +116,7 @@ class Refinement {
     for (std::size_t i = 0; i < moved_.size(); ++i) {
       if (i + 2 * ahead < moved_.size()) __builtin_prefetch(&rows_[moved_[i + 2 * ahead].state]);
       if (i + ahead < moved_.size()) {
-        __builtin_prefetch(in_edges_.data() + rows_[moved_[i + ahead].state]);
+        __builtin_prefetch(in_edges_.begin() + rows_[moved_[i + ahead].state]);
       }
       const std::uint32_t target = moved_[i].state;
       for (std::uint32_t e = rows_[target]; e < rows_[target + std::size_t{1}]; ++e) {
@@ -170,12 +170,12 @@ class Refinement {
   }
 
   std::uint64_t seed_;
-  std::vector<std::uint32_t> rows_;  // by state, where its incoming edges begin
-  std::vector<InEdge> in_edges_;
-  std::vector<Group> groups_;
+  base::GrowingArray<std::uint32_t> rows_;  // by state, where its incoming edges begin
+  base::GrowingArray<InEdge> in_edges_;
+  base::GrowingArray<Group> groups_;
   std::vector<std::uint32_t> free_groups_;
-  std::vector<MovedState> moved_;  // in the round in hand
-  std::vector<std::uint64_t> signatures_;
+  base::GrowingArray<MovedState> moved_;  // in the round in hand
+  base::GrowingArray<std::uint64_t> signatures_;
   std::vector<std::uint8_t> is_changed_;
   std::vector<std::uint32_t> changed_;  // states whose signature may have changed
   Partition partition_;

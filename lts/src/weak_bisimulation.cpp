@@ -16,6 +16,7 @@
 #include "number_set.hpp"
 #include "partition.hpp"
 #include "perentie/base/check.hpp"
+#include "perentie/base/growing_array.hpp"
 #include "perentie/lts/runs.hpp"
 #include "perentie/lts/watch.hpp"
 #include "tau_closure.hpp"
@@ -97,12 +98,12 @@ class DelayRefinement {
   }
 
   void take_predecessors() {
-    rows_.assign(lts_.state_count() + 1, 0);
+    rows_.resize(lts_.state_count() + 1);
     for (std::uint32_t s = 0; s < lts_.state_count(); ++s) {
       for (const Edge& edge : lts_.edges(State{s})) ++rows_[edge.target.value + std::size_t{1}];
     }
     std::partial_sum(rows_.begin(), rows_.end(), rows_.begin());
-    predecessors_.resize(lts_.edge_count());
+    predecessors_.resize_for_overwrite(lts_.edge_count());
     std::vector<std::uint64_t> next(rows_.begin(), rows_.end() - 1);
     for (std::uint32_t s = 0; s < lts_.state_count(); ++s) {
       for (const Edge& edge : lts_.edges(State{s})) {
@@ -112,7 +113,7 @@ class DelayRefinement {
   }
 
   std::span<const Predecessor> predecessors(std::uint32_t s) const {
-    return std::span(predecessors_).subspan(rows_[s], rows_[s + std::size_t{1}] - rows_[s]);
+    return {predecessors_.begin() + rows_[s], predecessors_.begin() + rows_[s + std::size_t{1}]};
   }
 
   void part_divergent(std::vector<Partition::Split>& splits) {
@@ -196,8 +197,8 @@ class DelayRefinement {
   const Lts& lts_;
   Watch watch_;
   std::vector<bool> diverges_;
-  std::vector<std::uint64_t> rows_;
-  std::vector<Predecessor> predecessors_;
+  base::GrowingArray<std::uint64_t> rows_;
+  base::GrowingArray<Predecessor> predecessors_;
   NumberSet due_;
   std::vector<std::uint32_t> changed_;  // states whose signature is new; in a round each once
   UniqueRuns<KeyId, Word> keys_;        // own pairs, and the signatures of τ successors

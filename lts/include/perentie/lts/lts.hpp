@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "perentie/base/growing_array.hpp"
 #include "perentie/base/id.hpp"
 
 namespace perentie::lts {
@@ -50,8 +51,7 @@ class Lts {
 
   /// The edges out of a state, sorted by (label, target).
   std::span<const Edge> edges(State state) const {
-    return std::span<const Edge>(edges_).subspan(rows_[state.value],
-                                                 rows_[state.value + 1] - rows_[state.value]);
+    return {edges_.begin() + rows_[state.value], edges_.begin() + rows_[state.value + 1]};
   }
   /// The sub-run of `edges(state)` with one label.
   std::span<const Edge> edges(State state, Label label) const;
@@ -73,11 +73,11 @@ class Lts {
  private:
   friend class LtsBuilder;
   friend class LtsRowBuilder;
-  Lts(std::vector<std::uint64_t> rows, std::vector<Edge> edges, State initial,
+  Lts(base::GrowingArray<std::uint64_t> rows, base::GrowingArray<Edge> edges, State initial,
       std::shared_ptr<const LabelNames> label_names);
 
-  std::vector<std::uint64_t> rows_;  // state_count() + 1 offsets into edges_
-  std::vector<Edge> edges_;
+  base::GrowingArray<std::uint64_t> rows_;  // state_count() + 1 offsets into edges_
+  base::GrowingArray<Edge> edges_;
   State initial_;
   std::shared_ptr<const LabelNames> label_names_;
 };
@@ -114,6 +114,8 @@ class LtsBuilder {
 /// sorted: the builder of steps that finish one state before the next.
 class LtsRowBuilder {
  public:
+  LtsRowBuilder() { rows_.push_back(0); }
+
   /// Adds an edge to the row in hand.
   void add_edge(Label label, State target) { edges_.push_back({label, target}); }
   /// Sorts the row in hand, removes its duplicate edges, and begins the row of the next state.
@@ -135,8 +137,8 @@ class LtsRowBuilder {
   Lts finish(State initial, std::size_t state_count, std::shared_ptr<const LabelNames> names) &&;
 
  private:
-  std::vector<std::uint64_t> rows_{0};
-  std::vector<Edge> edges_;
+  base::GrowingArray<std::uint64_t> rows_;
+  base::GrowingArray<Edge> edges_;
 };
 
 }  // namespace perentie::lts

@@ -373,23 +373,23 @@ class RefinementSearch {
   const ExploreOptions& options_;
   Watch watch_;
   VisitedStates<System> states_;
-  base::GrowingArray<Pair> pairs_;        // the queue, too
-  base::GrowingArray<Arrival> arrivals_;  // by pair
-  base::GrowingArray<State> first_node_;  // by state: of the first pair with it, if there is one
-  std::vector<Pair> further_pairs_;       // the others
-  base::UniqueIndex further_index_;       // of these
-  std::size_t visited_ = 0;               // pairs
+  base::GrowingArray<Pair> pairs_;          // the queue, too
+  base::GrowingArray<Arrival> arrivals_;    // by pair
+  base::GrowingArray<State> first_node_;    // by state: of the first pair with it, if there is one
+  base::GrowingArray<Pair> further_pairs_;  // the others
+  base::UniqueIndex further_index_;         // of these
+  std::size_t visited_ = 0;                 // pairs
 
   SuccessorBlock<System> block_;  // of the pairs in work
   std::span<const Edge> edges_;   // of the pair in work
   std::vector<State> nodes_;      // that these lead to
   std::vector<Label> offered_;    // by the pair in work
 
-  std::vector<Divergence> divergence_;  // by state
+  base::GrowingArray<Divergence> divergence_;  // by state
   std::vector<Step> path_;
   std::vector<State> tau_targets_;
   Runs<Edge> rows_;                                // of states that a search has passed
-  std::vector<std::uint32_t> row_of_;              // by state
+  base::GrowingArray<std::uint32_t> row_of_;       // by state
   std::vector<std::span<const Edge>> known_rows_;  // of a block
   std::vector<State> states_ahead_;                // whose rows a search computes
   SuccessorBlock<System> ahead_;                   // of the state in work of a search
