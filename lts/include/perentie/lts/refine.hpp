@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "perentie/base/check.hpp"
 #include "perentie/base/growing_array.hpp"
 #include "perentie/base/hash.hpp"
 #include "perentie/base/limits.hpp"
@@ -71,6 +72,7 @@ class RefinementSearch {
         specification_(specification),
         model_(model),
         options_(options),
+        max_pairs_(options.limits.max_states.value_or(State::none_value)),
         watch_(options.limits),
         states_(system),
         block_(system, states_, options.limits.workers),
@@ -113,31 +115,45 @@ class RefinementSearch {
     return std::move(result_);
   }
 
-  // Most states are met with one node only, so that one lies beside the state; others are looked
-  // up.
   void add(Pair pair, std::uint32_t from, Label label) {
-    if (first_node_.size() <= pair.state.value) first_node_.resize(states_.size());
-    State& first = first_node_[pair.state.value];
-    if (first == pair.node) return;
-    if (!first) {
-      first = pair.node;
-    } else {
-      const std::uint64_t hash =
-          base::hash_mix(0, (std::uint64_t{pair.node.value} << 32U) | pair.state.value);
-      const bool is_new =
-          further_index_
-              .find_or_insert(hash, static_cast<std::uint32_t>(further_pairs_.size()),
-                              [&](std::uint32_t other) { return further_pairs_[other] == pair; })
-              .inserted;
-      if (!is_new) return;
-      further_pairs_.push_back(pair);
-    }
+    if (!is_new(pair)) return;
     pairs_.push_back(pair);
     arrivals_.push_back({from, label});
-    const std::uint64_t max_pairs = options_.limits.max_states.value_or(State::none_value);
-    if (pairs_.size() > max_pairs) {
-      result_.limit = base::LimitReached{base::LimitKind::states, max_pairs};
+    if (pairs_.size() > max_pairs_) {
+      result_.limit = base::LimitReached{base::LimitKind::states, max_pairs_};
     }
+  }
+
+  // Remembers the pair. Most states are met with one node only, so that one lies beside the state;
+  // others are looked up. As long as there is one node, not even that is needed.
+  bool is_new(Pair pair) {
+    if (have_same_numbers_) {
+      if (pair.node == State{0}) {
+        PERENTIE_CHECK(pair.state.value <= pairs_.size(), "a state is met before its number is");
+        return pair.state.value == pairs_.size();
+      }
+      part_numbers();
+    }
+    if (first_node_.size() <= pair.state.value) first_node_.resize(states_.size());
+    State& first = first_node_[pair.state.value];
+    if (first == pair.node) return false;
+    if (!first) {
+      first = pair.node;
+      return true;
+    }
+    const std::uint64_t hash =
+        base::hash_mix(0, (std::uint64_t{pair.node.value} << 32U) | pair.state.value);
+    const auto further = static_cast<std::uint32_t>(further_pairs_.size());
+    const auto is_pair = [&](std::uint32_t other) { return further_pairs_[other] == pair; };
+    if (!further_index_.find_or_insert(hash, further, is_pair).inserted) return false;
+    further_pairs_.push_back(pair);
+    return true;
+  }
+
+  // From now on pairs may be met in another order than their states.
+  void part_numbers() {
+    have_same_numbers_ = false;
+    first_node_.resize(pairs_.size(), State{0});
   }
 
   using Row = typename SuccessorBlock<System>::Row;
@@ -157,12 +173,14 @@ class RefinementSearch {
       std::uint64_t bytes = states_.peak_bytes(1) + lts::peak_bytes(pairs_, 1) +
                             lts::peak_bytes(arrivals_, 1) + lts::peak_bytes(first_node_, 1) +
                             lts::peak_bytes(further_pairs_, 1) + further_index_.peak_bytes(1) +
-                            lts::peak_bytes(divergence_, 1);
+                            lts::peak_bytes(divergence_, 1) + lts::peak_bytes(row_of_, 1) +
+                            rows_.peak_bytes(0);
       if constexpr (requires { system_.memory_bytes(); }) bytes += system_.memory_bytes();
       result_.limit = watch_.budget().check_memory(bytes);
       if (options_.progress && watch_.report_due()) {
-        options_.progress({pairs_.size(), result_.counts.transitions, result_.counts.plys,
-                           pairs_.size() - visited_, bytes, watch_.budget().elapsed_seconds()});
+        options_.progress({std::max(pairs_.size(), rows_.size()), result_.counts.transitions,
+                           result_.counts.plys, pairs_.size() - visited_, bytes,
+                           watch_.budget().elapsed_seconds()});
       }
     }
     return !result_.limit;
@@ -185,11 +203,12 @@ class RefinementSearch {
       visit(row);
       return goes_on();
     });
-    result_.failed = goes_on() && block_.failed();
+    if (goes_on()) result_.failed = block_.failed();
   }
 
   // Begins to fetch what visits of the pairs of the block, the first of which is given, will read.
   void fetch(std::size_t first) {
+    if (have_same_numbers_) return;  // no row is known, and no node will be looked up
     const auto fetch_nodes = [&](std::span<const Edge> edges) {
       for (const Edge& edge : edges) {
         if (edge.target.value >= first_node_.size()) continue;
@@ -336,6 +355,10 @@ class RefinementSearch {
   // at the same time. Not so where a computation may fail.
   bool compute_rows(State state) {
     if (!is_within_budget()) return false;
+    if (rows_.size() >= max_pairs_) {  // each would be a pair, too
+      result_.limit = base::LimitReached{base::LimitKind::states, max_pairs_};
+      return false;
+    }
     states_ahead_.clear();
     plan_row(state);
     if constexpr (SharedTransitionSystem<System>) {
@@ -347,6 +370,7 @@ class RefinementSearch {
     ahead_.compute(
         states_ahead_.size(), [&](std::size_t i) { return states_ahead_[i]; }, [] { return true; });
     result_.failed = ahead_.failed();
+    if (have_same_numbers_) part_numbers();
     if (result_.failed || !number_targets(ahead_)) return false;
     const std::size_t first_row = rows_.size();
     ahead_.for_each_row([&](const Row& row) {
@@ -371,10 +395,13 @@ class RefinementSearch {
   const Specification& specification_;
   SemanticModel model_;
   const ExploreOptions& options_;
+  std::uint64_t max_pairs_;
   Watch watch_;
   VisitedStates<System> states_;
-  base::GrowingArray<Pair> pairs_;          // the queue, too
-  base::GrowingArray<Arrival> arrivals_;    // by pair
+  base::GrowingArray<Pair> pairs_;        // the queue, too
+  base::GrowingArray<Arrival> arrivals_;  // by pair
+  // Whether each state was met with node 0 only, and pairs have the numbers of their states.
+  bool have_same_numbers_ = true;
   base::GrowingArray<State> first_node_;    // by state: of the first pair with it, if there is one
   base::GrowingArray<Pair> further_pairs_;  // the others
   base::UniqueIndex further_index_;         // of these
