@@ -183,10 +183,14 @@ void add_diagnostics(const base::Diagnostics& diagnostics, const base::SourceMap
 std::string as_json(const CheckReport& report) {
   Json prints = Json::array();
   for (const PrintedValue& printed : report.prints) {
-    if (!printed.value) continue;
-    prints.push_back({{"line", report.sources.position(printed.print->span.begin).line},
-                      {"expression", printed.print->text},
-                      {"value", *printed.value}});
+    Json print{{"line", report.sources.position(printed.print->span.begin).line},
+               {"expression", printed.print->text}};
+    if (printed.value) print["value"] = *printed.value;
+    if (printed.limit) print["limit"] = base::describe(*printed.limit);
+    for (const base::Diagnostic& d : printed.diagnostics.all()) {
+      print["errors"].push_back(json_of(d, report.sources));
+    }
+    prints.push_back(std::move(print));
   }
   Json list = Json::array();
   for (const CheckedAssertion& checked : report.assertions) {

@@ -3,6 +3,9 @@
 // The line from a model and a trace to a verdict: load, explore, hide what the system does not
 // show, normalise, compile the table, read the trace. What to monitor comes from a Varanus
 // configuration or from options; options win.
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <memory>
 
@@ -168,6 +171,14 @@ std::optional<std::string> failed_gate(const Options& options, const Task& task,
   return std::nullopt;
 }
 
+// Whether the trace is there as a whole. A pipe may go on for as long as the system runs.
+bool is_file(const std::string& trace) {
+  struct stat status {};
+  const bool is_known =
+      trace == "-" ? fstat(STDIN_FILENO, &status) == 0 : stat(trace.c_str(), &status) == 0;
+  return is_known && S_ISREG(status.st_mode);
+}
+
 void print_report(const Options& options, const monitor::RunResult& result,
                   const monitor::RunSubject& subject, Console& console) {
   console.result(options.format == "json" ? monitor::to_json(result, subject) + '\n'
@@ -248,14 +259,17 @@ ExitCode run_monitor(const Options& options, Console& console) {
   const auto format = options.trace_format == "auto"
                           ? monitor::TraceFormat::automatic
                           : *monitor::trace_format_from_name(options.trace_format);
-  auto reader = monitor::open_trace(task->trace, monitor::reader_options(events.sources(), format),
-                                    trace_report);
+  monitor::TraceReaderOptions reading = monitor::reader_options(events.sources(), format);
+  reading.cancelled = &interrupted();
+  auto reader = monitor::open_trace(task->trace, reading, trace_report);
   if (reader == nullptr) {
     console.print(input.diagnostics, input.sources);
     return ExitCode::io_error;
   }
   monitor::EventStream stream(std::move(reader), events.sources(), trace_report);
-  const monitor::RunResult result = monitor::run_trace(stream, model, task->mode);
+  const auto rest =
+      is_file(task->trace) ? monitor::RestOfTrace::count : monitor::RestOfTrace::leave;
+  const monitor::RunResult result = monitor::run_trace(stream, model, task->mode, rest);
   console.print(input.diagnostics, input.sources);
   for (const lts::State state : result.model_states) {
     subject.model_position.push_back(script->show(built->term(state)));

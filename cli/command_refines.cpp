@@ -110,6 +110,11 @@ class FileRun {
       note_outcome(checked.result.outcome);
       if (options_.is_text()) {
         console_.result(fdr_text(checked, options_.layout, input_.sources));
+        if (options_.layout.brief) {  // the line has no room for them
+          for (const std::string& error : fdr_errors(checked, input_.sources)) {
+            console_.log(error + '\n');
+          }
+        }
       } else if (is_framed()) {
         FdrReport frame = empty_report();
         frame.assertions.push_back(std::move(checked));

@@ -52,7 +52,11 @@ void Console::print(const base::Diagnostics& diagnostics, const base::SourceMap&
   }
 }
 
-void Console::result(std::string_view text) const { write(stdout, text); }
+// What was found is not lost if the program is killed afterwards.
+void Console::result(std::string_view text) const {
+  write(stdout, text);
+  std::fflush(stdout);
+}
 
 void Console::log(std::string_view text) {
   clear_progress();
@@ -87,11 +91,13 @@ void Console::clear_progress() {
 const std::atomic<bool>& interrupted() { return interrupt_flag; }
 
 void catch_interrupts() {
-  // A second Ctrl-C ends the program at once: the first restores the default action.
-  std::signal(SIGINT, [](int) {
-    interrupt_flag.store(true);
-    std::signal(SIGINT, SIG_DFL);
-  });
+  // A second signal ends the program at once: the first restores the default action.
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::signal(signal, [](int caught) {
+      interrupt_flag.store(true);
+      std::signal(caught, SIG_DFL);
+    });
+  }
 }
 
 void forget_interrupt() {

@@ -44,7 +44,7 @@ class Console {
   std::size_t printed_ = 0;
 };
 
-/// Set by SIGINT; every long step looks at it.
+/// Set by SIGINT (Ctrl-C) and SIGTERM; every long step looks at it.
 const std::atomic<bool>& interrupted();
 void catch_interrupts();
 /// What comes next was not interrupted yet.

@@ -77,7 +77,9 @@ base::Limits BudgetOptions::limits() const {
   if (max_states > 0) limits.max_states = max_states;
   if (max_memory > 0) limits.max_memory_bytes = max_memory;
   if (timeout > 0) {
-    limits.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout * 1000));
+    constexpr double century = 100.0 * 365 * 86'400;  // counts of milliseconds have an end
+    limits.timeout =
+        std::chrono::milliseconds(static_cast<std::int64_t>(std::min(timeout, century) * 1000));
   }
   limits.workers = workers;
   limits.cancelled = &interrupted();

@@ -101,10 +101,14 @@ void append_ignored(std::string& text, const RunResult& result) {
   append_line(text, "ignored",
               fmt::format("{} that the model does not have: {}",
                           count_of(result.events_ignored, "event"), list_of(names)));
-  if (result.events_ignored == result.events_checked) {
-    append_line(text, "note",
-                "no event of the trace is an event of the model: do the names agree?");
-  }
+}
+
+// Why a verdict may say less than it seems to; empty if it does not.
+std::string_view note_on(const RunResult& result) {
+  if (result.verdict != RunVerdict::conforms) return {};
+  if (result.events_checked == 0) return "the trace has no events";
+  if (result.events_ignored < result.events_checked) return {};
+  return "no event of the trace is an event of the model: do the names agree?";
 }
 
 }  // namespace
@@ -134,6 +138,8 @@ std::string to_json(const RunResult& result, const RunSubject& subject) {
   json["events_total"] = nullptr;
   if (result.events_total) json["events_total"] = *result.events_total;
   json["events_ignored"] = result.events_ignored;
+  json["note"] = nullptr;
+  if (const auto note = note_on(result); !note.empty()) json["note"] = note;
   json["event"] = nullptr;
   if (result.events_checked > 0) json["event"] = result.event;
   json["event_in_alphabet"] = result.event_in_alphabet;
@@ -176,9 +182,10 @@ std::string to_text(const RunResult& result, const RunSubject& subject) {
   append_line(text, "checked", checked_text(result, subject));
   if (!result.events_total && violation) {
     append_line(text, "note",
-                "the rest of the trace could not be read; the verdict does not depend on it");
+                "the rest of the trace was not read; the verdict does not depend on it");
   }
   append_ignored(text, result);
+  if (const auto note = note_on(result); !note.empty()) append_line(text, "note", note);
   return text;
 }
 

@@ -69,7 +69,7 @@ MonitorModel make_monitor_model(lts::NormalLts normal, const TableOptions& optio
   return {std::move(table), std::move(index), std::move(normal.members)};
 }
 
-RunResult run_trace(EventStream& stream, const MonitorModel& model, Mode mode) {
+RunResult run_trace(EventStream& stream, const MonitorModel& model, Mode mode, RestOfTrace rest) {
   const auto start = std::chrono::steady_clock::now();
   RunResult result;
   Monitor monitor(model.table, mode);
@@ -88,9 +88,11 @@ RunResult run_trace(EventStream& stream, const MonitorModel& model, Mode mode) {
       result.source = shortened(traced.source);
     }
   }
-  std::uint64_t total = result.events_checked;
-  while (stream.next(traced)) ++total;
-  if (!stream.failed()) result.events_total = total;
+  if (!monitor.violated() || rest == RestOfTrace::count) {
+    std::uint64_t total = result.events_checked;
+    while (stream.next(traced)) ++total;
+    if (!stream.failed()) result.events_total = total;
+  }
   if (stream.failed() && result.verdict == RunVerdict::conforms) {
     result.verdict = RunVerdict::inconclusive;
     result.reason = "the trace could not be read to its end";

@@ -1,6 +1,7 @@
 #include "trace_input.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,7 +17,8 @@ constexpr std::size_t chunk_bytes = std::size_t{1} << 18U;
 }  // namespace
 
 TraceInput::TraceInput(TraceInput&& other) noexcept
-    : file_(std::exchange(other.file_, -1)),
+    : cancelled_(other.cancelled_),
+      file_(std::exchange(other.file_, -1)),
       own_file_(std::exchange(other.own_file_, false)),
       start_(other.start_),
       buffer_(std::move(other.buffer_)),
@@ -28,9 +30,10 @@ TraceInput::~TraceInput() {
   if (own_file_) ::close(file_);
 }
 
-std::optional<TraceInput> TraceInput::open(const std::string& path, bool rewindable,
-                                           std::string& error) {
+std::optional<TraceInput> TraceInput::open(const std::string& path,
+                                           const TraceReaderOptions& options, std::string& error) {
   TraceInput input;
+  input.cancelled_ = options.cancelled;
   if (path == "-") {
     input.file_ = STDIN_FILENO;
   } else {
@@ -47,7 +50,7 @@ std::optional<TraceInput> TraceInput::open(const std::string& path, bool rewinda
     return std::nullopt;
   }
   input.start_ = S_ISREG(status.st_mode) ? ::lseek(input.file_, 0, SEEK_CUR) : -1;
-  if (rewindable && input.start_ < 0) input.read_everything();
+  if (options.rewindable && input.start_ < 0) input.read_everything();
   return input;
 }
 
@@ -69,6 +72,11 @@ bool TraceInput::more() {
   if (buffer_.size() < end_ + chunk_bytes + padding) {
     buffer_.resize(2 * end_ + chunk_bytes + padding);
   }
+  if (start_ < 0) wait_for_pipe();
+  if (is_cancelled()) {
+    read_error_ = "it was interrupted";
+    return false;
+  }
   ssize_t count = 0;
   do {
     count = ::read(file_, buffer_.data() + end_, chunk_bytes);
@@ -77,6 +85,14 @@ bool TraceInput::more() {
   if (count <= 0) return false;
   end_ += static_cast<std::size_t>(count);
   return true;
+}
+
+// A signal does not end a read that waits, so there is none until there is something to read.
+void TraceInput::wait_for_pipe() const {
+  constexpr int milliseconds = 100;
+  pollfd pipe{file_, POLLIN, 0};
+  while (!is_cancelled() && ::poll(&pipe, 1, milliseconds) == 0) {
+  }
 }
 
 void TraceInput::read_everything() {

@@ -6,12 +6,15 @@
 // is what simdjson asks for.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "perentie/monitor/trace_reader.hpp"
 
 namespace perentie::monitor {
 
@@ -24,7 +27,7 @@ class TraceInput {
   ~TraceInput();
 
   /// Opens a file, or standard input for `-`. None: `error` says why in the system's words.
-  static std::optional<TraceInput> open(const std::string& path, bool rewindable,
+  static std::optional<TraceInput> open(const std::string& path, const TraceReaderOptions& options,
                                         std::string& error);
   static TraceInput of_text(std::string_view text);
 
@@ -42,7 +45,10 @@ class TraceInput {
   TraceInput() = default;
 
   void read_everything();
+  bool is_cancelled() const { return cancelled_ != nullptr && *cancelled_; }
+  void wait_for_pipe() const;
 
+  const std::atomic<bool>* cancelled_ = nullptr;
   int file_ = -1;  // -1: everything is in the buffer
   bool own_file_ = false;
   std::int64_t start_ = -1;  // where the input began in the file; -1: it cannot be read twice

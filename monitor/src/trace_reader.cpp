@@ -118,6 +118,9 @@ std::optional<EventFault> find_event_fault(std::string_view event) {
   if (!simdjson::validate_utf8(event.data(), event.size())) {
     return EventFault{0, "this is not an event: it is not UTF-8"};
   }
+  if (event.front() == '{' || event.front() == '[' || event.front() == '"') {
+    return EventFault{0, "this is not an event but looks like JSON (--trace-format json-lines)"};
+  }
   const std::size_t blank = find_blank_between_words(event);
   if (blank != std::string_view::npos) {
     return EventFault{
@@ -139,7 +142,7 @@ bool report_read_error(TraceReport& report, const TraceInput& input) {
 std::unique_ptr<TraceReader> open_trace(const std::string& path, const TraceReaderOptions& options,
                                         TraceReport& report) {
   std::string error;
-  std::optional<TraceInput> input = TraceInput::open(path, options.rewindable, error);
+  std::optional<TraceInput> input = TraceInput::open(path, options, error);
   if (!input) {
     report.diagnostics.report(codes::unreadable_file,
                               fmt::format("cannot read the trace `{}`: {}", report.path, error));

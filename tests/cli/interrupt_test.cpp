@@ -35,5 +35,44 @@ TEST(InterruptTest, MonitoringEndsWithoutAVerdict) {
   EXPECT_THAT(outcome.output, HasSubstr("the run was interrupted"));
 }
 
+TEST(InterruptTest, AViolationOnALivePipeIsReportedAtOnce) {
+  const TemporaryFolder folder;
+  const auto trace = folder.path() / "pipe";
+  const std::string model = folder.file("model.csp", "channel a, b\nP = a -> b -> P\n");
+  const Outcome outcome = interrupted_perentie(
+      {"monitor", "--model", model, "--process", "P", "--trace", trace.string()}, trace, "a\na\n",
+      2'000, PipeEnd::open, SIGKILL);
+  EXPECT_EQ(outcome.exit_code, 1) << "it did not wait to be killed";
+  EXPECT_THAT(outcome.output, HasSubstr("VIOLATION"));
+}
+
+TEST(InterruptTest, WaitingForALivePipeEndsWithAReport) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TemporaryFolder folder;
+    const auto trace = folder.path() / "pipe";
+    const std::string model = folder.file("model.csp", "channel a, b\nP = a -> b -> P\n");
+    const Outcome outcome = interrupted_perentie(
+        {"monitor", "--model", model, "--process", "P", "--trace", trace.string()}, trace,
+        "a\nb\na\n", 500, PipeEnd::open, signal);
+    EXPECT_EQ(outcome.exit_code, 130);
+    EXPECT_THAT(outcome.output, HasSubstr("INCONCLUSIVE"));
+    EXPECT_THAT(outcome.output, HasSubstr("3 events"));
+    EXPECT_THAT(outcome.errors, HasSubstr("interrupted"));
+  }
+}
+
+TEST(InterruptTest, WhatWasDecidedIsWritten) {
+  const TemporaryFolder folder;
+  const auto model = folder.path() / "pipe";
+  const Outcome outcome =
+      interrupted_perentie({"refines", "-b", "-q", "-f", "plain", model.string()}, model,
+                           endless + "assert STOP [T= STOP\nassert COUNT(0) :[divergence free]\n",
+                           1'000, PipeEnd::closed, SIGTERM);
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_THAT(outcome.output, HasSubstr("STOP [T= STOP: Passed"));
+  EXPECT_THAT(outcome.output, HasSubstr("Inconclusive"));
+  EXPECT_THAT(outcome.errors, HasSubstr("the run was interrupted"));
+}
+
 }  // namespace
 }  // namespace perentie::test

@@ -40,6 +40,7 @@ TEST(MonitorCorpusTest, TheReportIsOneObjectOfTheSchemaOnOneLine) {
                                             "events_checked",
                                             "events_total",
                                             "events_ignored",
+                                            "note",
                                             "event",
                                             "event_in_alphabet",
                                             "expected",

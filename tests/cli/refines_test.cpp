@@ -84,20 +84,21 @@ TEST(RefinesTest, ColourWhereItIsAskedFor) {
 }
 
 TEST(RefinesTest, JsonToTheByte) {
-  EXPECT_EQ(refines(two, {"-q", "-f", "json", "--reveal-taus"}).output,
-            R"-({"results":[{"assertion_string":"STOP [T= P \\ {a}","errors":[],"is_negated":0,)-"
-            R"-("result":0,"visited_states":2,"visited_transitions":3,"visited_plys":1,)-"
-            R"-("counterexamples":[{"type":"trace",)-"
-            R"-("specification_behaviour":{"machine_name":"normal(…)","type":"trace",)-"
-            R"-("error_event":0,"trace":[0],"states":["normal(…)","<unnamed>"]},)-"
-            R"-("implementation_behaviour":{"type":"trace","error_event":3,"trace":[1],)-"
-            R"-("states":["<unnamed>","<unnamed>"],"revealed_trace":[4]}}]},)-"
-            R"-({"assertion_string":"P [T= STOP","errors":[],"is_negated":0,"result":1,)-"
-            R"-("visited_states":1,"visited_transitions":1,"visited_plys":1,"counterexamples":[]}],)-"
-            R"-("print_statement_results":[],"file_name":"t.csp",)-"
-            R"-("event_map":{"0":"0","1":"τ","2":"✓","3":"b","4":"a"},)-"
-            R"-("warnings":[],"errors":[]})-"
-            "\n");
+  EXPECT_EQ(
+      refines(two, {"-q", "-f", "json", "--reveal-taus"}).output,
+      R"-({"results":[{"assertion_string":"STOP [T= P \\ {a}","errors":[],"is_negated":0,)-"
+      R"-("result":0,"visited_states":2,"visited_transitions":3,"visited_plys":1,)-"
+      R"-("counterexamples":[{"type":"trace",)-"
+      R"-("specification_behaviour":{"machine_name":"normal(…)","type":"trace",)-"
+      R"-("error_event":0,"trace":[0],"states":["normal(…)","<unnamed>"]},)-"
+      R"-("implementation_behaviour":{"type":"trace","error_event":3,"trace":[1],)-"
+      R"-("states":["<unnamed>","<unnamed>"],"revealed_trace":[4]}}]},)-"
+      R"-({"assertion_string":"P [T= STOP","errors":[],"is_negated":0,"result":1,)-"
+      R"-("visited_states":1,"visited_transitions":1,"visited_plys":1,"counterexamples":[]}],)-"
+      R"-("print_statement_results":[],"file_name":"t.csp",)-"
+      R"-("event_map":{"0":"0","1":"τ","2":"✓","3":"b","4":"a"},)-"
+      R"-("warnings":[],"errors":[]})-"
+      "\n");
 }
 
 TEST(RefinesTest, SlashesAreEscaped) {

@@ -106,12 +106,14 @@ Outcome perentie(const std::vector<std::string>& arguments, const Surroundings& 
 
 Outcome interrupted_perentie(const std::vector<std::string>& arguments,
                              const std::filesystem::path& pipe, const std::string& text,
-                             unsigned milliseconds) {
+                             unsigned milliseconds, PipeEnd end, int signal) {
   if (mkfifo(pipe.c_str(), 0600) != 0) throw std::runtime_error("mkfifo failed");
   return run_with(with_program(arguments), {}, [&](pid_t child) {
-    std::ofstream(pipe) << text;  // returns once the program has opened the pipe
+    std::ofstream writer(pipe);  // returns once the program has opened the pipe
+    writer << text << std::flush;
+    if (end == PipeEnd::closed) writer.close();
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-    kill(child, SIGINT);
+    kill(child, signal);
   });
 }
 

@@ -1,6 +1,7 @@
 // Runs the built program and keeps what a user would see: both outputs and the exit code.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -31,11 +32,14 @@ struct Outcome {
 Outcome run(const std::vector<std::string>& command, const Surroundings& around = {});
 /// The program with these arguments.
 Outcome perentie(const std::vector<std::string>& arguments, const Surroundings& around = {});
-/// The program with these arguments, and a SIGINT `milliseconds` after it has read the text from
-/// the named pipe `pipe`, which an argument names.
+/// Whether a pipe is at its end after what was written, or the writer may go on.
+enum class PipeEnd { closed, open };
+/// The program with these arguments, and a signal `milliseconds` after the text was written to the
+/// named pipe `pipe`, which an argument names.
 Outcome interrupted_perentie(const std::vector<std::string>& arguments,
                              const std::filesystem::path& pipe, const std::string& text,
-                             unsigned milliseconds);
+                             unsigned milliseconds, PipeEnd end = PipeEnd::closed,
+                             int signal = SIGINT);
 
 /// A folder of the running test, empty at first, removed when it goes out of scope.
 class TemporaryFolder {

@@ -35,29 +35,31 @@ RunResult run(const std::string& trace, Mode mode) {
 TEST(ReportTest, JsonOfAViolation) {
   RunSubject about = subject(Mode::permissive);
   about.model_position = {"ROVER_MOVING"};
-  EXPECT_EQ(to_json(run("{\"event\":\"start\"}\n{\"event\":\"noise\"}\n{\"event\":\"start\"}\n{"
-                        "\"event\":\"move.1\"}\n",
-                        Mode::permissive),
-                    about),
-            R"({"schema":"perentie.monitor/1","verdict":"violation","reason":null,)"
-            R"("events_checked":3,)"
-            R"("events_total":4,"events_ignored":1,"event":"start","event_in_alphabet":true,)"
-            R"("expected":["move.0","move.1"],"permitted_next":[],"line":3,"column":1,)"
-            R"("source":"{\"event\":\"start\"}","model_position":["ROVER_MOVING"],)"
-            R"("ignored":{"noise":1},"name":"patrol","model":"rover.csp","process":"ROVER",)"
-            R"("trace":"rover.jsonl","mode":"permissive","states":4,"transitions":5,)"
-            R"("synthesis_seconds":0.25,"checking_seconds":0.5})");
+  EXPECT_EQ(
+      to_json(run("{\"event\":\"start\"}\n{\"event\":\"noise\"}\n{\"event\":\"start\"}\n{"
+                  "\"event\":\"move.1\"}\n",
+                  Mode::permissive),
+              about),
+      R"({"schema":"perentie.monitor/1","verdict":"violation","reason":null,)"
+      R"("events_checked":3,)"
+      R"("events_total":4,"events_ignored":1,"note":null,"event":"start","event_in_alphabet":true,)"
+      R"("expected":["move.0","move.1"],"permitted_next":[],"line":3,"column":1,)"
+      R"("source":"{\"event\":\"start\"}","model_position":["ROVER_MOVING"],)"
+      R"("ignored":{"noise":1},"name":"patrol","model":"rover.csp","process":"ROVER",)"
+      R"("trace":"rover.jsonl","mode":"permissive","states":4,"transitions":5,)"
+      R"("synthesis_seconds":0.25,"checking_seconds":0.5})");
 }
 
 TEST(ReportTest, JsonOfATraceThatConforms) {
-  EXPECT_EQ(to_json(run("start\nmove.1\n", Mode::strict), subject(Mode::strict)),
-            R"({"schema":"perentie.monitor/1","verdict":"conforms","reason":null,)"
-            R"("events_checked":2,)"
-            R"("events_total":2,"events_ignored":0,"event":"move.1","event_in_alphabet":true,)"
-            R"("expected":[],"permitted_next":["✓"],"line":2,"column":1,"source":null,)"
-            R"("model_position":[],"ignored":{},"name":"patrol","model":"rover.csp",)"
-            R"("process":"ROVER","trace":"rover.jsonl","mode":"strict","states":4,)"
-            R"("transitions":5,"synthesis_seconds":0.25,"checking_seconds":0.5})");
+  EXPECT_EQ(
+      to_json(run("start\nmove.1\n", Mode::strict), subject(Mode::strict)),
+      R"({"schema":"perentie.monitor/1","verdict":"conforms","reason":null,)"
+      R"("events_checked":2,)"
+      R"("events_total":2,"events_ignored":0,"note":null,"event":"move.1","event_in_alphabet":true,)"
+      R"("expected":[],"permitted_next":["✓"],"line":2,"column":1,"source":null,)"
+      R"("model_position":[],"ignored":{},"name":"patrol","model":"rover.csp",)"
+      R"("process":"ROVER","trace":"rover.jsonl","mode":"strict","states":4,)"
+      R"("transitions":5,"synthesis_seconds":0.25,"checking_seconds":0.5})");
 }
 
 TEST(ReportTest, JsonOfAnEmptyTraceHasNoEvent) {
@@ -162,7 +164,7 @@ TEST(ReportTest, TextOfATraceThatCannotBeRead) {
       to_text(run("{\"event\":\"move.1\"}\n{", Mode::strict), subject(Mode::strict));
   EXPECT_TRUE(
       text.ends_with("  checked    1 event, strict mode\n"
-                     "  note       the rest of the trace could not be read; the verdict does "
+                     "  note       the rest of the trace was not read; the verdict does "
                      "not depend on it\n"))
       << text;
 }

@@ -59,7 +59,10 @@ TEST(TraceReaderTest, AnEmptyTraceHasNoRecords) {
 }
 
 TEST(TraceReaderTest, TheFormatCanBeGiven) {
-  EXPECT_EQ(records_of("[1]", TraceFormat::text), (Texts{"1:1 event [1]"}));
+  EXPECT_EQ(records_of("(1)", TraceFormat::text), (Texts{"1:1 event (1)"}));
+  EXPECT_EQ(records_of("[1]", TraceFormat::text),
+            (Texts{"trace:1:1: error: this is not an event but looks like JSON (--trace-format "
+                   "json-lines) [M022]\n[1]\n^\n"}));
   EXPECT_EQ(records_of("move.1", TraceFormat::json_lines),
             (Texts{"trace:1:1: error: this line is not a JSON object or string [M021]\n"
                    "move.1\n^\n"}));

@@ -40,7 +40,7 @@ struct RunResult {
   std::string reason;
   std::uint64_t events_checked = 0;  ///< with the offending event and with ignored ones
   std::uint64_t events_ignored = 0;  ///< outside Alpha(M), in permissive mode
-  /// How many events the trace has; none if it could not be read to its end.
+  /// How many events the trace has; none if it was not read to its end.
   std::optional<std::uint64_t> events_total;
 
   /// The last event checked (after a violation: the offending one), as the model names it, or as
@@ -65,8 +65,12 @@ struct RunResult {
   static constexpr std::size_t max_ignored_names = 100;
 };
 
-/// Checks the trace from the initial state of the model. After a violation the rest of the trace is
-/// only counted. Bad input has been reported to the stream's diagnostics and ends the run.
-RunResult run_trace(EventStream& stream, const MonitorModel& model, Mode mode);
+/// What is done with the rest of a trace after a violation.
+enum class RestOfTrace : std::uint8_t { count, leave };
+
+/// Checks the trace from the initial state of the model. Bad input has been reported to the
+/// stream's diagnostics and ends the run.
+RunResult run_trace(EventStream& stream, const MonitorModel& model, Mode mode,
+                    RestOfTrace rest = RestOfTrace::count);
 
 }  // namespace perentie::monitor

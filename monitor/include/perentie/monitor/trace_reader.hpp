@@ -6,6 +6,7 @@
 // before it stand. A byte-order mark, CR LF line ends and blank lines mean nothing.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -66,6 +67,8 @@ struct TraceReaderOptions {
   TraceFormat format = TraceFormat::automatic;
   /// Lets `rewind` work. Costs memory only where the input cannot be read twice (a pipe).
   bool rewindable = false;
+  /// Ends the trace as an error of reading does, also while a pipe is waited for. Null: never.
+  const std::atomic<bool>* cancelled = nullptr;
 };
 
 /// Opens a file, or standard input if the path is `-`. None after a diagnostic if it cannot be read
