@@ -166,7 +166,7 @@ void Repl::evaluate(const std::string& expression) {
   if (const auto read = script.expression(in_scope(expression), diagnostics)) {
     if (script.type_of(*read) != "Proc") {
       value = script.evaluate(*read, diagnostics);
-    } else if (const auto process = script.process(*read, {}, diagnostics)) {
+    } else if (const auto process = script.process(*read, diagnostics)) {
       value = script.definitions(*process, diagnostics);
     }
   }

@@ -69,18 +69,7 @@ class Checker {
   // Processes
 
   std::optional<ProcId> process(ExprId expr) {
-    if (assertion_.in_timed_section && script_.names_timed_constants(expr)) {
-      diagnostics_
-          .report(codes::bad_timed_section, assertion_.span,
-                  "in a timed section an assertion can only name processes")
-          .notes.push_back({std::nullopt,
-                            "STOP, SKIP, WAIT and timed_priority let time pass there, "
-                            "but the operators of an assertion do not"});
-      result_.outcome = Outcome::error;
-      return std::nullopt;
-    }
-    const auto found =
-        script_.process(expr, assertion_.assertion.options.tau_priority, diagnostics_);
+    const auto found = script_.process(expr, assertion_, diagnostics_);
     if (!found) stop(script_.limit());
     return found;
   }

@@ -41,8 +41,8 @@ class Explainer {
 
   std::optional<Explanation> run() {
     script_.set_limits(options_.limits);
-    const auto process = script_.process(implementation_of(assertion_.assertion),
-                                         assertion_.assertion.options.tau_priority, sink_);
+    const auto process =
+        script_.process(implementation_of(assertion_.assertion), assertion_, sink_);
     if (!process) return std::nullopt;
     // Components are those of the processes themselves, not of what compressions make of them.
     const PreservedInScript scope(script_, Preserved::identity);
@@ -314,8 +314,7 @@ class Explainer {
       for (const std::string& event : own.trace) {
         specification.trace.push_back(event == lts::tau_name ? std::string() : event);
       }
-      const auto process =
-          script_.process(claim->specification, assertion_.assertion.options.tau_priority, sink_);
+      const auto process = script_.process(claim->specification, assertion_, sink_);
       specification.states.resize(specification.trace.size() + 1);
       const std::string name = process ? script_.name(*process) : std::string();
       name_process(specification, name.empty() ? "normal(…)" : name);

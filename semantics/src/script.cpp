@@ -17,7 +17,6 @@
 #include "perentie/semantics/types.hpp"
 #include "prelude.hpp"
 #include "show_definitions.hpp"
-#include "syntax_children.hpp"
 #include "types/signatures.hpp"
 
 namespace perentie::semantics {
@@ -60,6 +59,7 @@ struct Script::Impl {
   void load_prelude(base::Diagnostics& diagnostics);
   void mark_processes_by_type();
   parser::ExprId prioritised(parser::ExprId process, parser::ExprId lower);
+  std::optional<ProcId> run_process(Address entry, base::Diagnostics& diagnostics);
   enum class Expected : std::uint8_t { anything, process };
   parser::ExprId parse(std::string_view text, const std::string& origin, Expected expected,
                        base::Diagnostics& diagnostics);
@@ -179,6 +179,12 @@ parser::ExprId Script::Impl::parse(std::string_view text, const std::string& ori
 Script::Script(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Script::~Script() = default;
 
+std::optional<ProcId> Script::Impl::run_process(Address entry, base::Diagnostics& diagnostics) {
+  machine->extend_globals();
+  const std::optional<ValueId> value = machine->run(entry, diagnostics);
+  return value ? std::optional(values.as_process(*value)) : std::nullopt;
+}
+
 std::unique_ptr<Script> Script::load(base::FileId root, base::SourceMap& sources,
                                      base::Diagnostics& diagnostics,
                                      const parser::ParseOptions& options) {
@@ -232,17 +238,19 @@ std::optional<ProcId> Script::process(std::string_view expression, base::Diagnos
   const parser::ExprId expr =
       impl_->parse(expression, origin, Impl::Expected::process, diagnostics);
   if (!expr) return std::nullopt;
-  return process(expr, {}, diagnostics);
+  return process(expr, diagnostics);
 }
 
-std::optional<ProcId> Script::process(parser::ExprId expression, parser::ExprId tau_priority,
+std::optional<ProcId> Script::process(parser::ExprId expression, base::Diagnostics& diagnostics) {
+  return impl_->run_process(impl_->lowering->process_expression(expression), diagnostics);
+}
+
+std::optional<ProcId> Script::process(parser::ExprId expression, const ScriptAssertion& assertion,
                                       base::Diagnostics& diagnostics) {
-  if (tau_priority) expression = impl_->prioritised(expression, tau_priority);
-  const Address entry = impl_->lowering->process_expression(expression);
-  impl_->machine->extend_globals();
-  const std::optional<ValueId> value = impl_->machine->run(entry, diagnostics);
-  if (!value) return std::nullopt;
-  return impl_->values.as_process(*value);
+  const parser::ExprId events = assertion.assertion.options.tau_priority;
+  if (events) expression = impl_->prioritised(expression, events);
+  return impl_->run_process(
+      impl_->lowering->process_expression(expression, assertion.timed_section), diagnostics);
 }
 
 std::optional<ScriptAssertion> Script::assertion(std::string_view text,
@@ -301,26 +309,6 @@ std::string Script::name(ProcId process) const {
     default:
       return {};
   }
-}
-
-bool Script::names_timed_constants(parser::ExprId expression) const {
-  const Resolution& resolution = impl_->resolver.result();
-  std::vector<SyntaxNode> stack{{SyntaxNode::Kind::expr, expression.value}};
-  while (!stack.empty()) {
-    const SyntaxNode node = stack.back();
-    stack.pop_back();
-    if (node.kind == SyntaxNode::Kind::expr && resolution.of_expr[node.id]) {
-      const SymbolId id = resolution.of_expr[node.id];
-      const Symbol& symbol = resolution.symbols[id];
-      const bool is_constant = symbol.kind == SymbolKind::builtin &&
-                               (symbol.builtin == Builtin::stop || symbol.builtin == Builtin::skip);
-      if (is_constant || id == impl_->prelude.wait || id == impl_->prelude.timed_priority) {
-        return true;
-      }
-    }
-    append_children(impl_->tree, node, stack);
-  }
-  return false;
 }
 
 std::vector<std::string> Script::channel_names() const {

@@ -104,11 +104,13 @@ TEST(CheckTest, ShowsWhatTheScriptPrints) {
   EXPECT_EQ(check(script, {"-a", "1"}).exit_code, 0);
 }
 
-// STOP there lets time pass, but an assertion is not translated (CSPM reference 2.10.9).
-TEST(CheckTest, AssertionsInTimedSectionsNameProcesses) {
+// STOP there lets time pass, the operators of an assertion do not (CSPM reference 2.10.9).
+TEST(CheckTest, AssertionsInTimedSectionsHaveItsConstants) {
   const std::string timed = "channel tock, a\nTimed {\n  P = a -> STOP\n  assert ";
   EXPECT_EQ(check(timed + "P :[deadlock free]\n}").exit_code, 0);
-  EXPECT_EQ(check(timed + "STOP :[deadlock free]\n}").exit_code, 3);
+  EXPECT_EQ(check(timed + "STOP :[deadlock free]\n}").exit_code, 0);
+  EXPECT_EQ(check(timed + "STOP [T= STOP ||| WAIT(1) ; STOP\n}").exit_code, 0);
+  EXPECT_EQ(check(timed + "P :[deadlock free]\n}\nassert STOP :[deadlock free]").exit_code, 1);
 }
 
 TEST(CheckTest, ExplainsAsJson) {

@@ -39,8 +39,7 @@ struct Loaded {
 // same labels if all their events are known, so each is explored twice.
 std::optional<lts::Lts> graph_of(Loaded& loaded, parser::ExprId process,
                                  const ScriptAssertion& assertion, std::uint64_t most) {
-  const auto term =
-      loaded.script->process(process, assertion.assertion.options.tau_priority, loaded.diagnostics);
+  const auto term = loaded.script->process(process, assertion, loaded.diagnostics);
   RC_ASSERT(term.has_value());
   semantics::TermSystem terms = loaded.script->terms(*term, loaded.diagnostics);
   auto found = lts::explore(terms, {.limits = {.max_states = most}});

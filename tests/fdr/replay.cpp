@@ -22,9 +22,7 @@ const std::string tau(lts::tau_name);
 class Process {
  public:
   Process(semantics::Script& script, parser::ExprId expr, const ScriptAssertion& assertion)
-      : terms_(script.terms(
-            script.process(expr, assertion.assertion.options.tau_priority, sink_).value(), sink_)) {
-  }
+      : terms_(script.terms(script.process(expr, assertion, sink_).value(), sink_)) {}
 
   States initial() const { return {terms_.initial()}; }
 

@@ -164,8 +164,8 @@ TEST_P(CheckCorpusTest, EveryAssertionComesOutAsItsCommentSays) {
     if (expectation.trace) {
       EXPECT_EQ(fmt::format("<{}>", fmt::join(result.witness->trace, ", ")), *expectation.trace);
     }
-    const auto process = script->script().process(
-        implementation(assertion.assertion), assertion.assertion.options.tau_priority, diagnostics);
+    const auto process =
+        script->script().process(implementation(assertion.assertion), assertion, diagnostics);
     ASSERT_TRUE(process);
     // A trace that cannot be performed is found in the normal form: its witness has no τ.
     if (std::holds_alternative<parser::HasTraceAssertion>(assertion.assertion.claim)) continue;

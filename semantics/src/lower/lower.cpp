@@ -120,7 +120,12 @@ Address Lowering::expression(ExprId expr) {
   return entry;
 }
 
-Address Lowering::process_expression(ExprId expr) {
+Address Lowering::process_expression(ExprId expr, parser::DeclId timed_section) {
+  if (timed_section) {
+    timed_ = static_cast<TimedIndex>(timed_sections_.size());
+    timed_sections_.push_back(
+        {resolution_.tocks.at(timed_section.value), {}, /*has_timed_operators=*/false});
+  }
   const Address entry = here();
   process(expr);
   emit(Op::ret);

@@ -36,7 +36,9 @@ class Lowering {
   /// A block that leaves the value of an expression, completely evaluated.
   Address expression(parser::ExprId expr);
   /// A block that leaves the process that an expression stands for.
-  Address process_expression(parser::ExprId expr);
+  /// In an assertion inside a timed section, STOP, SKIP, WAIT and timed_priority are those of the
+  /// section, the operators are the untimed ones (2.10.9).
+  Address process_expression(parser::ExprId expr, parser::DeclId timed_section = {});
   /// The global slot of a constant, function, datatype or nametype.
   std::uint32_t global_slot(SymbolId symbol) const;
 
@@ -59,10 +61,12 @@ class Lowering {
   struct Label {
     std::vector<Address> uses;
   };
-  // A timed section: its time event, and where its time function is, if it has one.
+  // A timed section: its time event, and where its time function is, if it has one. Assertions in
+  // it have its constants only.
   struct TimedSection {
     SymbolId tock;
     Location duration;
+    bool has_timed_operators = true;
   };
   using TimedIndex = std::uint32_t;
   static constexpr TimedIndex not_timed = 0xFFFF'FFFFU;
@@ -188,7 +192,9 @@ class Lowering {
   void ties(const parser::Ties& ties);
 
   // Timed sections (2.10.4)
-  bool is_timed() const { return timed_ != not_timed; }
+  bool is_timed() const {
+    return timed_ != not_timed && timed_sections_[timed_].has_timed_operators;
+  }
   ValueId tock() const { return values_.make_atom(timed_sections_[timed_].tock); }
   void timed_section(parser::DeclId id, const std::function<void(parser::DeclId)>& declare,
                      const std::function<Location(parser::ExprId)>& declare_duration);

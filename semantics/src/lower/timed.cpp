@@ -36,7 +36,7 @@ void Lowering::refuse_in_timed_section(base::Span span, std::string_view what) {
 // --- Constants and sets -------------------------------------------------------------------------
 
 bool Lowering::is_timed_builtin(SymbolId id) const {
-  if (!is_timed()) return false;
+  if (timed_ == not_timed) return false;
   const Symbol& symbol = resolution_.symbols[id];
   return id == prelude_.wait || id == prelude_.timed_priority ||
          (symbol.kind == SymbolKind::builtin &&

@@ -133,10 +133,18 @@ bool Unifier::is_stuck(const List& list) {
 }
 
 // Gives the variable behind the first part its fields: one, or as the last part all but
-// `fields_kept`, or one.
+// `fields_kept`, or one. If there is one field for the variable and what follows it, that field is
+// all of this: the variable is a constructor that takes it.
 bool Unifier::resolve_stuck(List& list, Match match, std::size_t fields_kept) {
   const TypeRef variable = list[1];
   const Chain all = chain(list[0]);
+  const TypeKind result = types_.kind(all.result);
+  const bool is_complete = result == TypeKind::event || result == TypeKind::datatype;
+  if (list.size() > 2 && all.fields.size() == 1 && is_complete) {
+    if (!unify(types_.dots(std::span(list).subspan(1)), all.fields.front())) return false;
+    list = {all.result};
+    return true;
+  }
   std::size_t taken = 1;
   if (list.size() == 2 && match == Match::longest && all.fields.size() > fields_kept) {
     taken = all.fields.size() - fields_kept;

@@ -14,7 +14,7 @@ struct ScriptAssertion {
   std::string text;  ///< as tools name it: without `assert`
   base::Span span;
   parser::Assertion assertion;
-  bool in_timed_section = false;
+  parser::DeclId timed_section = {};  ///< the innermost around it, if there is one
 };
 
 struct ScriptPrint {

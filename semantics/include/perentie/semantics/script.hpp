@@ -70,13 +70,12 @@ class Script {
 
   /// The same of expressions that were read, or are in the script itself.
   std::optional<std::string> evaluate(parser::ExprId expression, base::Diagnostics& diagnostics);
-  /// With `tau_priority`, a set of events: τ and ✓ have priority over these (2.6.7).
-  std::optional<ProcId> process(parser::ExprId expression, parser::ExprId tau_priority,
+  std::optional<ProcId> process(parser::ExprId expression, base::Diagnostics& diagnostics);
+  /// A process that an assertion speaks of: τ and ✓ have priority over the events that it says
+  /// (2.6.7), and in a timed section STOP and others are those of the section (2.10.9).
+  std::optional<ProcId> process(parser::ExprId expression, const ScriptAssertion& assertion,
                                 base::Diagnostics& diagnostics);
 
-  /// Whether an expression of the script names STOP, SKIP, WAIT or timed_priority, which are other
-  /// processes in a timed section.
-  bool names_timed_constants(parser::ExprId expression) const;
   /// The transitions of a process by the step rules. The script must outlive the system.
   TermSystem terms(ProcId process, base::Diagnostics& diagnostics);
   /// The same process as a machine that is made while it is explored (`lazy_machine.hpp`).
