@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <iterator>
 
 #include <fmt/format.h>
 
+#include "perentie/base/check.hpp"
 #include "perentie/base/overload.hpp"
+#include "perentie/lts/deterministic_extraction.hpp"
+#include "perentie/lts/divergence.hpp"
 #include "perentie/lts/lts_system.hpp"
 #include "perentie/lts/normalise.hpp"
 #include "perentie/lts/refusal_testing.hpp"
 #include "perentie/lts/revivals.hpp"
 #include "perentie/lts/specifications.hpp"
+#include "perentie/lts/trace.hpp"
 #include "perentie/lts/weak_bisimulation.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
 #include "perentie/semantics/process_graph.hpp"
@@ -311,11 +317,26 @@ class Checker {
     }
   }
 
+  // As FDR does: against what a deterministic process that is extracted from it can do (5.3.4). In
+  // the failures model that is right where nothing diverges; otherwise everything is looked at that
+  // the process can do after a trace, which may take exponentially longer.
   void check_determinism(ProcId implementation, SemanticModel model) {
-    const auto normal = normal_form(implementation, false);
+    const auto graph = explored(implementation);
+    if (!graph) return;
+    const bool is_extracted =
+        model == SemanticModel::failures_divergences ||
+        std::ranges::none_of(lts::divergent_states(graph->lts), std::identity());
+    const auto normal =
+        is_extracted
+            ? normal_form(lts::strong_bisimulation(lts::deterministic_extraction(graph->lts)).lts,
+                          false)
+            : normal_form(implementation, false);
     if (!normal) return;
     refine(lts::DeterministicSpecification(*normal), implementation, model,
            [&](const Found& found, Witness& witness) {
+             if (found.kind == Found::Kind::event) {
+               return show_refusal(*graph, found, witness);
+             }
              if (found.kind != Found::Kind::acceptance) return;
              witness.kind = Witness::Kind::nondeterminism;
              for (const lts::Edge& edge : normal->lts.edges(found.node)) {
@@ -324,6 +345,25 @@ class Checker {
                break;
              }
            });
+  }
+
+  // The event of a counterexample is one that another state after the same trace refuses.
+  void show_refusal(const ProcessExploration& graph, const Found& found, Witness& witness) const {
+    std::vector<Label> trace;
+    std::ranges::copy_if(found.trace, std::back_inserter(trace),
+                         [](Label label) { return label != lts::tau; });
+    const auto path = lts::shortest_path(
+        graph.lts,
+        [&](lts::State s) {
+          return graph.lts.is_stable(s) && graph.lts.edges(s, found.event).empty();
+        },
+        trace);
+    PERENTIE_CHECK(path.has_value(), "an event that no state refuses");
+    const lts::State last = lts::end_of(graph.lts, *path);
+    witness.kind = Witness::Kind::nondeterminism;
+    witness.trace = words(lts::labels_of(*path));
+    witness.state = script_.show(graph.term(last));
+    witness.offered = words(lts::labels_on(graph.lts.edges(last)));
   }
 
   // CSPM reference 5.3.8, on the normal form.

@@ -60,12 +60,17 @@ class NormalSpecification {
 };
 
 /// Determinism as a refinement: what is possible after a trace must not be refused after it, and
-/// nothing may diverge (5.3.6). The normal form is that of the implementation itself.
+/// nothing may diverge (5.3.6). The normal form is that of the implementation itself, or of its
+/// deterministic extraction, where what is not possible after a trace must not be possible in the
+/// implementation. Where the normal form diverges, so does the implementation: it is searched on.
 class DeterministicSpecification {
  public:
   explicit DeterministicSpecification(const NormalLts& normal) : normal_(&normal), edges_(normal) {}
 
-  std::optional<State> next(State node, Label label) const { return edges_.next(node, label); }
+  std::optional<State> next(State node, Label label) const {
+    const auto found = edges_.next(node, label);
+    return found || !normal_->divergent[node.value] ? found : std::optional(node);
+  }
   bool accepts(State node, std::span<const Label> offered) const {
     return std::ranges::all_of(normal_->lts.edges(node), [&](const Edge& edge) {
       return std::ranges::binary_search(offered, edge.label);
