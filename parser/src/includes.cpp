@@ -33,19 +33,18 @@ std::string normalised(const std::filesystem::path& path) {
   return path.lexically_normal().generic_string();
 }
 
-// Relative to the including file, then to the folder of the script. The error is that of the first.
+// Relative to the folder of the script, then to the including file. The error is that of the
+// latter.
 Found find_file(std::string_view name, std::string_view including, std::string_view root,
                 const Load& load) {
   const auto beside = [&](std::string_view file) {
     return normalised(std::filesystem::path(file).parent_path() / std::filesystem::path(name));
   };
-  const std::string first = beside(including);
-  const std::string second = beside(root);
+  const std::string first = beside(root);
+  const std::string second = beside(including);
   base::FileText text = load(first);
   if (text.text || second == first) return {first, std::move(text)};
-  base::FileText other = load(second);
-  if (other.text) return {second, std::move(other)};
-  return {first, std::move(text)};
+  return {second, load(second)};
 }
 
 class Expander {

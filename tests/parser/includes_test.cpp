@@ -32,17 +32,17 @@ struct Files {
   }
 };
 
-TEST(IncludesTest, AreRelativeToTheIncludingFileThenToTheScript) {  // CSPM reference 2.8
+TEST(IncludesTest, AreRelativeToTheScriptThenToTheIncludingFile) {  // CSPM reference 2.8
   Files files{{{"models/main.csp", "include \"sub/a.csp\"\nx = 1\n"},
                {"models/sub/a.csp", "include \"b.csp\"\ninclude \"c.csp\"\n"},
-               {"models/sub/b.csp", "b = 1\n"},
-               {"models/b.csp", "wrong = 1\n"},
-               {"models/c.csp", "c = 1\n"}}};
+               {"models/sub/b.csp", "wrong = 1\n"},
+               {"models/b.csp", "b = 1\n"},
+               {"models/sub/c.csp", "c = 1\n"}}};
   const Parsed parsed = files.parse("models/main.csp");
   EXPECT_EQ(parsed.messages(), "");
   EXPECT_EQ(parsed.printed(), "b = 1\nc = 1\nx = 1\n");
-  EXPECT_EQ(files.asked, (std::vector<std::string>{"models/sub/a.csp", "models/sub/b.csp",
-                                                   "models/sub/c.csp", "models/c.csp"}));
+  EXPECT_EQ(files.asked, (std::vector<std::string>{"models/sub/a.csp", "models/b.csp",
+                                                   "models/c.csp", "models/sub/c.csp"}));
 }
 
 TEST(IncludesTest, UpwardsAndAbsolute) {

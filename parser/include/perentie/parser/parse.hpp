@@ -17,8 +17,8 @@
 namespace perentie::parser {
 
 struct ParseOptions {
-  /// How an include is read. Paths are tried relative to the including file, then to the folder of
-  /// the script (2.8).
+  /// How an include is read. Paths are tried relative to the folder of the script, then to the
+  /// including file (2.8).
   std::function<base::FileText(const std::string& path)> load = base::read_file;
   /// How deep brackets, `let`, `if`, lambdas, replicated and unary operators may nest together.
   /// Chains of infix operators, calls and renamings do not count, and may be of any length. The
