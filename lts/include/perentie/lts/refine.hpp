@@ -253,9 +253,9 @@ class RefinementSearch {
   std::optional<Label> follow(State node) {
     nodes_.clear();
     for (const Edge& edge : edges_) {
-      const auto next = edge.label == tau ? node : specification_.next(node, edge.label);
+      const State next = edge.label == tau ? node : specification_.next(node, edge.label);
       if (!next) return edge.label;
-      nodes_.push_back(*next);
+      nodes_.push_back(next);
     }
     return std::nullopt;
   }

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,7 +36,7 @@ class RevivalSpecification {
   RevivalSpecification(const NormalLts& normal, const StableOffers& offers)
       : edges_(normal), offers_(&offers) {}
 
-  std::optional<State> next(State node, Label label) const { return edges_.next(node, label); }
+  State next(State node, Label label) const { return edges_.next(node, label); }
   bool accepts(State node, std::span<const Label> offered) const;
   bool allows_divergence(State node) const { return edges_.allows_divergence(node); }
 

@@ -2,14 +2,13 @@
 // say which acceptances and divergences are allowed.
 //
 // A `Specification` has nodes, numbered from 0, the initial one. `next` follows an event or ✓;
-// without a successor the event is an error. `accepts` is asked of stable states with the labels
+// if it gives none, the event is an error. `accepts` is asked of stable states with the labels
 // that they offer, ascending; `allows_divergence` of states that diverge.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,13 +33,10 @@ class NormalSpecification {
     }
   }
 
-  std::optional<State> next(State node, Label label) const {
-    if (label.value < label_count_) {
-      const State target = table_[node.value * label_count_ + label.value];
-      return target ? std::optional(target) : std::nullopt;
-    }
+  State next(State node, Label label) const {
+    if (label.value < label_count_) return table_[node.value * label_count_ + label.value];
     const auto edges = normal_->lts.edges(node, label);
-    return edges.empty() ? std::nullopt : std::optional(edges.front().target);
+    return edges.empty() ? State{} : edges.front().target;
   }
   bool accepts(State node, std::span<const Label> offered) const {
     return std::ranges::any_of(normal_->acceptances->of(node), [&](AcceptanceId id) {
@@ -67,9 +63,9 @@ class DeterministicSpecification {
  public:
   explicit DeterministicSpecification(const NormalLts& normal) : normal_(&normal), edges_(normal) {}
 
-  std::optional<State> next(State node, Label label) const {
-    const auto found = edges_.next(node, label);
-    return found || !normal_->divergent[node.value] ? found : std::optional(node);
+  State next(State node, Label label) const {
+    const State found = edges_.next(node, label);
+    return found || !normal_->divergent[node.value] ? found : node;
   }
   bool accepts(State node, std::span<const Label> offered) const {
     return std::ranges::all_of(normal_->lts.edges(node), [&](const Edge& edge) {
@@ -85,14 +81,14 @@ class DeterministicSpecification {
 
 /// Deadlock freedom: every stable state offers something; termination is a deadlock (5.3.1, 5.3.2).
 struct DeadlockFreedom {
-  static std::optional<State> next(State node, Label) { return node; }
+  static State next(State node, Label) { return node; }
   static bool accepts(State, std::span<const Label> offered) { return !offered.empty(); }
   static bool allows_divergence(State) { return false; }
 };
 
 /// Divergence freedom: everything else is allowed (5.3.3).
 struct DivergenceFreedom {
-  static std::optional<State> next(State node, Label) { return node; }
+  static State next(State node, Label) { return node; }
   static bool accepts(State, std::span<const Label>) { return true; }
   static bool allows_divergence(State) { return false; }
 };
