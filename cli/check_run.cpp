@@ -9,6 +9,7 @@
 #include <iostream>
 #include <iterator>
 #include <mutex>
+#include <new>
 
 #include "perentie/base/check.hpp"
 
@@ -17,6 +18,8 @@ namespace {
 
 // A script is loaded so many times at most, and so many checks run side by side at most.
 constexpr std::size_t max_groups = 16;
+
+constexpr base::LimitReached no_memory{base::LimitKind::memory};
 
 std::optional<base::FileId> read_root(const std::string& path, Input& input) {
   if (path != "-") return input.read(path);
@@ -99,8 +102,12 @@ std::unique_ptr<CheckRun::Copy> CheckRun::copy() const {
 
 PrintedValue CheckRun::evaluate(const semantics::ScriptPrint& print, const base::Limits& limits) {
   PrintedValue printed{&print, {}, {}, {}};
+  if (is_starved_) {
+    printed.limit = no_memory;
+    return printed;
+  }
   script_->set_limits(limits);
-  printed.value = script_->evaluate(print.expression, printed.diagnostics);
+  printed.value = script_->evaluate(print, printed.diagnostics);
   if (!printed.value) printed.limit = script_->limit();
   return printed;
 }
@@ -117,6 +124,15 @@ CheckedAssertion CheckRun::check_one(semantics::Script& script, std::size_t numb
         {.limits = exploration.limits, .with_components = options.with_components});
   }
   return checked;
+}
+
+CheckedAssertion CheckRun::without_memory(std::size_t number) const {
+  using Outcome = semantics::CheckResult::Outcome;
+  return {number,
+          &assertions_[number - 1],
+          {.outcome = Outcome::inconclusive, .limit = no_memory},
+          {},
+          {}};
 }
 
 void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& options,
@@ -137,10 +153,22 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
 
   const auto check_group = [&](std::size_t group) {
     const auto part = part_of(numbers, group, groups);
-    const std::unique_ptr<Copy> own = group == 0 ? nullptr : copy();
+    std::unique_ptr<Copy> own;
+    bool is_starved = false;
+    const auto starve = [&] {
+      is_starved = true;
+      if (group == 0) is_starved_ = true;
+    };
+    try {
+      if (group != 0) own = copy();
+    } catch (const std::bad_alloc&) {
+      starve();
+    }
     semantics::Script& script = own == nullptr ? *script_ : *own->script;
-    script.set_leaf_compression(options.leaf_compression);
-    script.show_calls(options.show_calls);
+    if (!is_starved) {
+      script.set_leaf_compression(options.leaf_compression);
+      script.show_calls(options.show_calls);
+    }
     auto place = static_cast<std::size_t>(part.data() - numbers.data());
     for (const std::size_t number : part) {
       if (stopped) return;
@@ -152,12 +180,19 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
           options.progress(progress);
         };
       }
-      CheckedAssertion checked = check_one(script, number, exploration, options);
+      CheckedAssertion checked = without_memory(number);
+      if (!is_starved) {
+        try {
+          checked = check_one(script, number, exploration, options);
+        } catch (const std::bad_alloc&) {
+          starve();
+        }
+      }
       const std::lock_guard lock(mutex);
       results[place++] = std::move(checked);
       changed.notify_one();
     }
-    compressions[group] = script.compressions_given_up();
+    if (!is_starved) compressions[group] = script.compressions_given_up();
   };
 
   const auto work = [&] {

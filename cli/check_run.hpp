@@ -75,6 +75,7 @@ class CheckRun {
   std::unique_ptr<Copy> copy() const;
   CheckedAssertion check_one(semantics::Script& script, std::size_t number,
                              const lts::ExploreOptions& exploration, const CheckOptions& options);
+  CheckedAssertion without_memory(std::size_t number) const;
 
   Input& input_;
   base::FileId root_;
@@ -83,6 +84,7 @@ class CheckRun {
   std::vector<semantics::ScriptAssertion> assertions_;
   std::vector<semantics::ScriptPrint> prints_;
   std::vector<std::string> compressions_;
+  bool is_starved_ = false;  // memory ran out; what `script_` knows may be incomplete
 };
 
 /// The worst of the outcomes, as an exit code: an error, then a claim that fails, then none known.

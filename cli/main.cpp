@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <iostream>
 #include <iterator>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,6 +69,15 @@ ExitCode after_writing(ExitCode code, const Console& console) {
   return ExitCode::io_error;
 }
 
+ExitCode run_command(const Command& command, Console& console) {
+  try {
+    return command.run(console);
+  } catch (const std::bad_alloc&) {
+    console.error("inconclusive: the system has no more memory to give");
+    return ExitCode::inconclusive;
+  }
+}
+
 ExitCode run(int argc, char** argv) {
   CLI::App program{description, "perentie"};
   program.footer(footer);
@@ -105,7 +115,7 @@ ExitCode run(int argc, char** argv) {
   catch_interrupts();
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
-    const ExitCode code = command.run(console);
+    const ExitCode code = run_command(command, console);
     return after_writing(interrupted().load() ? ExitCode::interrupted : code, console);
   }
   return ExitCode::usage;

@@ -11,6 +11,7 @@ std::string describe(const LimitReached& reached) {
     case LimitKind::states:
       return fmt::format("the limit of {} states was reached", with_thousands(reached.limit));
     case LimitKind::memory:
+      if (reached.limit == 0) return "the system has no more memory to give";
       return fmt::format("the limit of {} bytes of memory was reached",
                          with_thousands(reached.limit));
     case LimitKind::depth:

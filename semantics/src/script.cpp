@@ -63,6 +63,7 @@ struct Script::Impl {
   enum class Expected : std::uint8_t { anything, process };
   parser::ExprId parse(std::string_view text, const std::string& origin, Expected expected,
                        base::Diagnostics& diagnostics);
+  bool admit(parser::ExprId expr, Expected expected, base::Diagnostics& diagnostics);
 };
 
 void Script::Impl::load_prelude(base::Diagnostics& diagnostics) {
@@ -166,14 +167,19 @@ parser::ExprId Script::Impl::parse(std::string_view text, const std::string& ori
   if (!file) return {};
   const parser::ExprId expr = parser::parse_expression(*file, tree, sources, diagnostics, options);
   if (!expr || diagnostics.error_count() > errors) return {};
+  return admit(expr, expected, diagnostics) ? expr : parser::ExprId{};
+}
+
+// Resolves and infers an expression of the tree in the scope of the script.
+bool Script::Impl::admit(parser::ExprId expr, Expected expected, base::Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.error_count();
   resolver.resolve_expression(expr, diagnostics);
-  if (diagnostics.error_count() > errors) return {};
+  if (diagnostics.error_count() > errors) return false;
   const bool is_well_typed = expected == Expected::process
                                  ? types->check_process(expr, diagnostics)
                                  : types->check_expression(expr, diagnostics);
-  if (!is_well_typed) return {};
-  mark_processes_by_type();
-  return expr;
+  if (is_well_typed) mark_processes_by_type();
+  return is_well_typed;
 }
 
 Script::Script(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -222,6 +228,13 @@ std::optional<std::string> Script::evaluate(std::string_view expression,
                                             const std::string& origin) {
   const auto expr = this->expression(expression, diagnostics, origin);
   return expr ? evaluate(*expr, diagnostics) : std::nullopt;
+}
+
+std::optional<std::string> Script::evaluate(const ScriptPrint& print,
+                                            base::Diagnostics& diagnostics) {
+  const bool is_right =
+      print.expression && impl_->admit(print.expression, Impl::Expected::anything, diagnostics);
+  return is_right ? evaluate(print.expression, diagnostics) : std::nullopt;
 }
 
 std::optional<std::string> Script::evaluate(parser::ExprId expression,

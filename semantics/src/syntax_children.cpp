@@ -99,7 +99,7 @@ class Children {
                    },
                    [&](const parser::NametypeDecl& d) { add(d.type); },
                    [&](const parser::AssertDecl& d) { assertion(d.assertion); },
-                   [&](const parser::PrintDecl& d) { add(d.expression); },
+                   [](const parser::PrintDecl&) {},  // is read when it is printed
                    [&](const parser::TimedDecl& d) { add(d.duration); },
                    [](const auto&) {},
                },

@@ -52,5 +52,16 @@ TEST(GrowingArrayTest, CopiesAndMoves) {
   EXPECT_EQ(array.begin(), array.end());
 }
 
+TEST(GrowingArrayTest, GrowsWithAnElementOfItsOwn) {
+  for (std::size_t size = 1; size < 5'000; size = size * 2 + 1) {
+    GrowingArray<std::uint64_t> array;
+    for (std::size_t i = 0; i < size; ++i) array.push_back(i + 7);
+    array.resize(20 * array.capacity() + 1, array.back());  // the block moves
+    EXPECT_EQ(array[array.size() - 1], size + 6);
+    array.push_back(array[0]);
+    EXPECT_EQ(array.back(), 7U);
+  }
+}
+
 }  // namespace
 }  // namespace perentie::base

@@ -102,6 +102,9 @@ TEST(CheckTest, ShowsWhatTheScriptPrints) {
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_EQ(outcome.output.find("print 1 + 2: 3\n1. STOP [T= STOP: holds"), 0U) << outcome.output;
   EXPECT_EQ(check(script, {"-a", "1"}).exit_code, 0);
+  const auto json = nlohmann::json::parse(check(script, {"--format", "json"}).output);
+  EXPECT_EQ(json["prints"][0]["value"], "3");
+  EXPECT_EQ(json["prints"][1]["errors"][0]["code"], "E005");
 }
 
 // STOP there lets time pass, the operators of an assertion do not (CSPM reference 2.10.9).

@@ -233,6 +233,12 @@ TEST(RefinesTest, PrintStatements) {
   EXPECT_EQ(prints[0], json::parse(R"({"print_statement":"1+1","location":"t.csp:1:1-10",)"
                                    R"("errors":[],"result":"2"})"));
   EXPECT_EQ(prints[1]["errors"].size(), 1U);
+  for (const std::string wrong : {"print foo", "print 1 + true"}) {  // concerns itself only
+    const json all = document(wrong + "\nassert STOP [T= STOP");
+    EXPECT_EQ(all["errors"], json::array());
+    EXPECT_EQ(all["results"][0]["result"], 1);
+    EXPECT_EQ(all["print_statement_results"][0]["errors"].size(), 1U);
+  }
   EXPECT_THAT(refines("print 1+1", {"-q", "-f", "plain"}).output,
               HasSubstr("1+1:\n    Result: 2\n"));
 }

@@ -212,7 +212,7 @@ void Resolver::Impl::visit_bodies(DeclId id) {
                  [&](const parser::DatatypeDecl& d) { visit_datatype(id, d); },
                  [&](const parser::NametypeDecl& d) { then_expr(d.type); },
                  [&](const parser::AssertDecl& d) { visit_assertion(d.assertion); },
-                 [&](const parser::PrintDecl& d) { then_expr(d.expression); },
+                 [](const parser::PrintDecl&) {},  // when it is printed (11.13)
                  [&](const parser::ModuleDecl&) {
                    for (const DeclId instance : instances_of[id.value]) {
                      tasks.push_back({K::end_copy});

@@ -57,7 +57,7 @@ class GrowingArray {
     size_ += items.size();
   }
   /// New elements are copies of `value`. Throws std::bad_alloc.
-  void resize(std::size_t size, const T& value = T()) {
+  void resize(std::size_t size, T value = T()) {  // by value: it may be one of ours
     if (size > capacity_) grow(size);
     if (size > size_) std::uninitialized_fill(items_ + size_, items_ + size, value);
     size_ = size;

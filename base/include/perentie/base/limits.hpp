@@ -16,7 +16,7 @@ enum class LimitKind : std::uint8_t { states, memory, depth, time, cancelled };
 
 struct LimitReached {
   LimitKind kind;
-  std::uint64_t limit = 0;  ///< states, bytes, levels or milliseconds; 0 for `cancelled`
+  std::uint64_t limit = 0;  ///< states, bytes (0: all that there are), levels or milliseconds
 };
 
 /// One sentence without final period, such as "the limit of 1,000 states was reached".

@@ -11,7 +11,6 @@
 #include <span>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "perentie/base/growing_array.hpp"
 #include "perentie/base/hash.hpp"

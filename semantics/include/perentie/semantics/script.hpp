@@ -68,6 +68,10 @@ class Script {
   std::optional<ScriptAssertion> assertion(std::string_view text, base::Diagnostics& diagnostics,
                                            const std::string& origin = "<assertion>");
 
+  /// The value of a print line. Its names and types are looked at here: what is wrong with them
+  /// concerns nothing else (11.13).
+  std::optional<std::string> evaluate(const ScriptPrint& print, base::Diagnostics& diagnostics);
+
   /// The same of expressions that were read, or are in the script itself.
   std::optional<std::string> evaluate(parser::ExprId expression, base::Diagnostics& diagnostics);
   std::optional<ProcId> process(parser::ExprId expression, base::Diagnostics& diagnostics);
