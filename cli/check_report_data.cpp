@@ -101,6 +101,11 @@ Json json_of(const base::Diagnostic& d, const base::SourceMap& sources) {
   return json;
 }
 
+// The key is there only if there are some.
+void add_errors(const base::Diagnostics& diagnostics, const base::SourceMap& sources, Json& json) {
+  for (const base::Diagnostic& d : diagnostics.all()) json["errors"].push_back(json_of(d, sources));
+}
+
 std::string failure_text(const CheckedAssertion& checked) {
   const Witness& w = *checked.result.witness;
   std::string text = fmt::format("after {} {}", trace_of(w.trace), behaviour_of(w));
@@ -187,26 +192,21 @@ std::string as_json(const CheckReport& report) {
                {"expression", printed.print->text}};
     if (printed.value) print["value"] = *printed.value;
     if (printed.limit) print["limit"] = base::describe(*printed.limit);
-    for (const base::Diagnostic& d : printed.diagnostics.all()) {
-      print["errors"].push_back(json_of(d, report.sources));
-    }
+    add_errors(printed.diagnostics, report.sources, print);
     prints.push_back(std::move(print));
   }
   Json list = Json::array();
   for (const CheckedAssertion& checked : report.assertions) {
     list.push_back(json_of(checked, report));
-    if (!checked.diagnostics.has_errors()) continue;
-    for (const base::Diagnostic& d : checked.diagnostics.all()) {
-      list.back()["errors"].push_back(json_of(d, report.sources));
+    if (checked.diagnostics.has_errors()) {
+      add_errors(checked.diagnostics, report.sources, list.back());
     }
   }
   Json document{{"schema", "perentie.check/1"},
                 {"file", report.file},
                 {"prints", std::move(prints)},
                 {"assertions", std::move(list)}};
-  for (const base::Diagnostic& d : report.load_errors.all()) {
-    document["errors"].push_back(json_of(d, report.sources));
-  }
+  add_errors(report.load_errors, report.sources, document);
   return text_of(document);
 }
 

@@ -154,20 +154,15 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
   const auto check_group = [&](std::size_t group) {
     const auto part = part_of(numbers, group, groups);
     std::unique_ptr<Copy> own;
-    bool is_starved = false;
-    const auto starve = [&] {
-      is_starved = true;
-      if (group == 0) is_starved_ = true;
-    };
+    semantics::Script* script = nullptr;  // none once memory runs out: it may know things by half
     try {
       if (group != 0) own = copy();
+      script = group == 0 ? script_.get() : own->script.get();
+      script->set_leaf_compression(options.leaf_compression);
+      script->show_calls(options.show_calls);
     } catch (const std::bad_alloc&) {
-      starve();
-    }
-    semantics::Script& script = own == nullptr ? *script_ : *own->script;
-    if (!is_starved) {
-      script.set_leaf_compression(options.leaf_compression);
-      script.show_calls(options.show_calls);
+      script = nullptr;
+      if (group == 0) is_starved_ = true;
     }
     auto place = static_cast<std::size_t>(part.data() - numbers.data());
     for (const std::size_t number : part) {
@@ -181,18 +176,19 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
         };
       }
       CheckedAssertion checked = without_memory(number);
-      if (!is_starved) {
+      if (script != nullptr) {
         try {
-          checked = check_one(script, number, exploration, options);
+          checked = check_one(*script, number, exploration, options);
         } catch (const std::bad_alloc&) {
-          starve();
+          script = nullptr;
+          if (group == 0) is_starved_ = true;
         }
       }
       const std::lock_guard lock(mutex);
       results[place++] = std::move(checked);
       changed.notify_one();
     }
-    if (!is_starved) compressions[group] = script.compressions_given_up();
+    if (script != nullptr) compressions[group] = script->compressions_given_up();
   };
 
   const auto work = [&] {

@@ -89,14 +89,16 @@ class Checker {
 
   std::optional<lts::NormalLts> normal_form(ProcId process, bool with_acceptances) {
     const auto exploration = explored(process);
-    if (!exploration) return std::nullopt;
+    return exploration ? normal_form_of_reduced(exploration->lts, with_acceptances) : std::nullopt;
+  }
+
+  // In the models up to failures-divergences.
+  std::optional<lts::NormalLts> normal_form_of_reduced(const lts::Lts& lts, bool with_acceptances) {
     // The subset construction takes very long on large graphs with many τ, and meets few sets in
     // their quotients. Small graphs keep the nodes, and with them the counts, that FDR has.
     constexpr std::size_t large = 10'000;
-    if (exploration->lts.state_count() < large || !lts::has_tau(exploration->lts)) {
-      return normal_form(exploration->lts, with_acceptances);
-    }
-    const auto small = lts::delay_bisimulation(exploration->lts, options_.limits);
+    if (lts.state_count() < large || !lts::has_tau(lts)) return normal_form(lts, with_acceptances);
+    const auto small = lts::delay_bisimulation(lts, options_.limits);
     if (const auto* limit = std::get_if<base::LimitReached>(&small)) {
       stop(*limit);
       return std::nullopt;
@@ -330,7 +332,7 @@ class Checker {
         is_extracted
             ? normal_form(lts::strong_bisimulation(lts::deterministic_extraction(graph->lts)).lts,
                           false)
-            : normal_form(implementation, false);
+            : normal_form_of_reduced(graph->lts, false);
     if (!normal) return;
     refine(lts::DeterministicSpecification(*normal), implementation, model,
            [&](const Found& found, Witness& witness) {
