@@ -118,7 +118,7 @@ std::optional<EventFault> find_event_fault(std::string_view event) {
   if (!simdjson::validate_utf8(event.data(), event.size())) {
     return EventFault{0, "this is not an event: it is not UTF-8"};
   }
-  if (event.front() == '{' || event.front() == '[' || event.front() == '"') {
+  if (event.starts_with('{') || event.starts_with('[') || event.starts_with('"')) {
     return EventFault{0, "this is not an event but looks like JSON (--trace-format json-lines)"};
   }
   const std::size_t blank = find_blank_between_words(event);
