@@ -58,4 +58,12 @@ Lts plain_lts(const GeneralisedLts& generalised) {
                                    lts.shared_label_names());
 }
 
+bool only_chooses_acceptances(const Lts& lts, State state) {
+  const auto edges = lts.edges(state);
+  return std::ranges::all_of(lts.edges(state, tau), [&](const Edge& edge) {
+    return edge.target == state ||
+           (lts.is_stable(edge.target) && std::ranges::includes(edges, lts.edges(edge.target)));
+  });
+}
+
 }  // namespace perentie::lts

@@ -147,7 +147,10 @@ std::optional<CompressedProcess> Compressor::compress(ProcId term, Preserved pre
   Compression small = compress_graph(found.lts, builtin, limits);
   if (const auto* reached = std::get_if<base::LimitReached>(&small)) return give_up(*reached);
   limit_.reset();
-  return with_terms(std::get<lts::Lts>(std::move(small)), term, preserved);
+  CompressedProcess result = with_terms(std::get<lts::Lts>(std::move(small)), term, preserved);
+  result.is_generalised = found.structure.is_generalised || builtin == Builtin::normal ||
+                          builtin == Builtin::diamond;
+  return result;
 }
 
 bool Compressor::is_being_applied(ProcId term) const {

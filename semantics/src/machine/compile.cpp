@@ -36,9 +36,10 @@ class Compiler {
 
   MachineCompilation run(ProcId process) {
     const std::optional<ProcId> root = steps_.state(process);
-    if (!root || !is_compiled_operator(parts_.processes.kind(*root))) return give_up();
+    if (!root) return give_up();
+    if (!is_compiled_operator(parts_.processes.kind(*root)) && !is_graph(*root)) return give_up();
     find_leaves(*root, 0);
-    if (leaf_terms_.size() < options_.min_leaves) return give_up();
+    if (leaf_terms_.size() < options_.min_leaves && !is_graph(*root)) return give_up();
     for (const ProcId term : leaf_terms_) {
       if (!leaf_graphs_.contains(term.value) && !add_leaf(term)) return give_up();
     }
@@ -46,7 +47,7 @@ class Compiler {
     if (!rules) return give_up();
     std::vector<const LeafGraph*> leaves;
     for (const ProcId term : leaf_terms_) leaves.push_back(&leaf_graphs_.at(term.value));
-    auto machine = make_tables(leaves, builder_, *rules, joins_termination_);
+    auto machine = make_tables(leaves, builder_, *rules, termination_);
     if (!machine) return give_up();
     machine->root = *root;
     machine->is_weak = compression_ == LeafCompression::wbisim;
@@ -64,6 +65,11 @@ class Compiler {
     return {std::nullopt, budget_.check_time(), has_large_leaves_};
   }
 
+  // A generalised LTS is a machine of one leaf.
+  bool is_graph(ProcId root) const {
+    return options_.generalises && is_generalised(root, parts_.processes, parts_.compressions);
+  }
+
   void find_leaves(ProcId term, std::uint32_t depth) {
     if (is_leaf(parts_.processes, term, depth)) {
       leaf_terms_.push_back(term);
@@ -73,9 +79,10 @@ class Compiler {
       case ProcKind::hide:
       case ProcKind::project:
       case ProcKind::rename:
+        termination_ = std::max(termination_, Termination::passed_on);
         break;
       default:
-        joins_termination_ = true;
+        termination_ = Termination::joined;
     }
     for (const ProcId operand : parts_.processes.operands(term)) find_leaves(operand, depth + 1);
   }
@@ -87,6 +94,9 @@ class Compiler {
       return false;
     }
     leaf_states_ += leaf.graph->state_count();
+    if (options_.generalises) {
+      find_generalised(*leaf.graph, parts_.processes, parts_.compressions);
+    }
     LeafSize size{term, leaf.graph->state_count(), leaf.graph->edge_count(), 0, 0};
     if (compression_ != LeafCompression::none && leaf_terms_.size() > 1) {
       leaf.graph = compress_leaf(std::move(*leaf.graph), compression_, budget_.rest());
@@ -103,7 +113,7 @@ class Compiler {
   std::optional<RuleBuilder::Rules> rules_of(ProcId term, std::uint32_t depth) {
     if (is_leaf(parts_.processes, term, depth)) {
       std::vector<EventId> events = leaf_graphs_.at(term.value).labels();
-      std::erase(events, lts::tick);
+      if (termination_ != Termination::of_leaf) std::erase(events, lts::tick);
       return builder_.leaf(next_leaf_++, events);
     }
     std::vector<RuleBuilder::Rules> found;
@@ -128,7 +138,7 @@ class Compiler {
   std::vector<LeafSize> leaf_sizes_;
   std::uint64_t leaf_states_ = 0;  // of all of them
   bool has_large_leaves_ = false;
-  bool joins_termination_ = false;
+  Termination termination_ = Termination::of_leaf;
   std::uint32_t next_leaf_ = 0;
 };
 

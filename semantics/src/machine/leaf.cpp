@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "perentie/lts/bisimulation.hpp"
+#include "perentie/lts/generalised_lts.hpp"
 #include "perentie/lts/memory.hpp"
 #include "perentie/lts/weak_bisimulation.hpp"
 
@@ -37,6 +38,40 @@ LeafResult explore_leaf(StepRules& rules, ProcId initial, std::uint64_t max_stat
     graph.rows.add(row);
   }
   return {std::move(graph)};
+}
+
+namespace {
+
+struct GraphState {
+  const CompressedProcess* graph = nullptr;  // none: the term is no state of a generalised LTS
+  lts::State state = {};
+};
+
+GraphState graph_state(ProcId term, const ProcStore& processes, CompressionRules compressions) {
+  const bool is_inner = processes.kind(term) == ProcKind::compressed_state;
+  const ProcId whole = is_inner ? processes.operand(term, 0) : term;
+  if (processes.kind(whole) != ProcKind::compression) return {};
+  const auto preserved =
+      is_inner ? static_cast<Preserved>(processes.word(term, 1)) : compressions.preserved;
+  const auto* graph = compressions.compressor.compressed(whole, preserved);
+  if (graph == nullptr || !graph->is_generalised) return {};
+  return {graph, is_inner ? lts::State{processes.word(term, 2)} : graph->lts.initial()};
+}
+
+}  // namespace
+
+bool is_generalised(ProcId term, const ProcStore& processes, CompressionRules compressions) {
+  return graph_state(term, processes, compressions).graph != nullptr;
+}
+
+void find_generalised(LeafGraph& leaf, const ProcStore& processes, CompressionRules compressions) {
+  for (std::uint32_t s = 0; s < leaf.state_count(); ++s) {
+    const auto [graph, state] = graph_state(leaf.states[s], processes, compressions);
+    if (graph == nullptr || graph->lts.is_stable(state)) continue;
+    if (!lts::only_chooses_acceptances(graph->lts, state)) continue;
+    leaf.generalised.resize(leaf.state_count());
+    leaf.generalised[s] = true;
+  }
 }
 
 std::vector<lts::Label> LeafGraph::labels() const {
@@ -100,6 +135,13 @@ LeafGraph compress_leaf(LeafGraph leaf, LeafCompression compression, const base:
   }
   for (std::uint32_t s = 0; s < smaller.state_count(); ++s) {
     smaller.rows.add(quotient->lts.edges(lts::State{s}));
+  }
+  for (std::uint32_t s = 0; s < leaf.generalised.size(); ++s) {
+    const lts::State block = quotient->block_of[s];
+    if (!leaf.generalised[s] || !block) continue;
+    if (!lts::only_chooses_acceptances(quotient->lts, block)) continue;
+    smaller.generalised.resize(smaller.state_count());
+    smaller.generalised[block.value] = true;
   }
   return smaller;
 }

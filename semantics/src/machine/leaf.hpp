@@ -23,6 +23,14 @@ struct LeafGraph {
   lts::Runs<lts::Edge> rows;   ///< by state
   std::vector<ProcId> states;  ///< their terms; of a compressed leaf one of several
   std::unordered_map<std::uint32_t, std::uint32_t> numbers;  ///< of all terms: their states
+  /// By state: whether τ, but to itself, only choose an acceptance, as in a generalised LTS. Empty:
+  /// of none.
+  std::vector<bool> generalised;
+
+  bool is_generalised() const { return !generalised.empty(); }
+  bool is_generalised_state(std::uint32_t state) const {
+    return is_generalised() && generalised[state];
+  }
 
   std::uint64_t edge_count() const;
   std::uint32_t state_count() const { return static_cast<std::uint32_t>(states.size()); }
@@ -47,5 +55,10 @@ LeafGraph compress_leaf(LeafGraph leaf, LeafCompression compression, const base:
 
 LeafResult explore_leaf(StepRules& rules, ProcId initial, std::uint64_t max_states,
                         const base::Budget& budget);
+
+/// Finds the states that are those of generalised LTSs, which compressions are known to make.
+void find_generalised(LeafGraph& leaf, const ProcStore& processes, CompressionRules compressions);
+/// Whether such a graph stands for a term.
+bool is_generalised(ProcId term, const ProcStore& processes, CompressionRules compressions);
 
 }  // namespace perentie::semantics

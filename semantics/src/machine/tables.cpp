@@ -35,20 +35,21 @@ std::vector<std::uint32_t> states_by_label(const LeafGraph& leaf) {
 class TableMaker {
  public:
   TableMaker(const std::vector<const LeafGraph*>& leaves, const RuleBuilder& builder,
-             bool joins_termination)
+             Termination termination)
       : leaves_(leaves),
         builder_(builder),
-        joins_termination_(joins_termination),
+        termination_(termination),
         plans_(leaves.size()) {}
 
   std::optional<CompiledMachine> make(const RuleBuilder::Rules& rules) {
     for (const LeafGraph* leaf : leaves_) {
       if (!counts_.contains(leaf)) counts_.emplace(leaf, states_by_label(*leaf));
     }
-    terminates_ = std::all_of(leaves_.begin(), leaves_.end(), [&](const LeafGraph* leaf) {
-      const auto& counts = counts_.at(leaf);
-      return counts.size() > lts::tick.value && counts[lts::tick.value] > 0;
-    });
+    terminates_ = termination_ != Termination::of_leaf &&
+                  std::all_of(leaves_.begin(), leaves_.end(), [&](const LeafGraph* leaf) {
+                    const auto& counts = counts_.at(leaf);
+                    return counts.size() > lts::tick.value && counts[lts::tick.value] > 0;
+                  });
     if (!place_leaves()) return std::nullopt;
     for (const SyncRule& rule : rules) plan(rule.event, builder_.parts(rule));
     if (terminates_) {
@@ -145,18 +146,25 @@ class TableMaker {
   }
 
   bool add_rows() {
+    const bool has_choices = std::ranges::any_of(leaves_, &LeafGraph::is_generalised);
     for (std::uint32_t l = 0; l < leaves_.size(); ++l) {
       if (!plans_[l].led.empty()) machine_.leaders.push_back(l);
       for (std::uint32_t s = 0; s < state_count(l); ++s) {
         begin_row();
         machine_.row_terms.push_back(s < leaves_[l]->state_count() ? leaves_[l]->states[s]
                                                                    : ProcId{});
+        if (has_choices) begin_choices();
         if (s < leaves_[l]->state_count()) add_row(l, s);
         if (std::max(machine_.leads.size(), machine_.follows.size()) > max_entries) return false;
       }
     }
     begin_row();
+    if (has_choices) begin_choices();
     return true;
+  }
+
+  void begin_choices() {
+    machine_.first_choice.push_back(static_cast<std::uint32_t>(machine_.choices.size()));
   }
 
   void begin_row() {
@@ -168,13 +176,18 @@ class TableMaker {
     const LeafPlan& plan = plans_[l];
     const std::size_t first_follow = machine_.follows.size();
     const auto omega = leaves_[l]->state_count();
+    const bool joins = termination_ == Termination::joined;
     bool has_ticked = false;
     for (const lts::Edge& edge : leaves_[l]->edges(state)) {
       // Parallel operators terminate once, in however many ways their operands do.
-      if (edge.label == lts::tick && joins_termination_ && std::exchange(has_ticked, true))
-        continue;
-      const std::uint32_t target = edge.label == lts::tick ? omega : edge.target.value;
+      if (edge.label == lts::tick && joins && std::exchange(has_ticked, true)) continue;
+      const std::uint32_t target =
+          edge.label == lts::tick && terminates_ ? omega : edge.target.value;
       const std::uint64_t change = std::uint64_t{state ^ target} << machine_.leaves[l].shift;
+      if (edge.label == lts::tau && target != state && leaves_[l]->is_generalised_state(state)) {
+        machine_.choices.push_back(change);
+        continue;
+      }
       if (const auto run = plan.runs.find(edge.label); run != plan.runs.end()) {
         machine_.leads.push_back({change, run->second.first, run->second.end});
       }
@@ -190,7 +203,7 @@ class TableMaker {
 
   const std::vector<const LeafGraph*>& leaves_;
   const RuleBuilder& builder_;
-  bool joins_termination_;
+  Termination termination_;
   std::vector<LeafPlan> plans_;                                    // by leaf
   std::map<const LeafGraph*, std::vector<std::uint32_t>> counts_;  // by label
   bool terminates_ = false;
@@ -202,14 +215,14 @@ class TableMaker {
 std::optional<CompiledMachine> make_tables(const std::vector<const LeafGraph*>& leaves,
                                            const RuleBuilder& builder,
                                            const RuleBuilder::Rules& rules,
-                                           bool joins_termination) {
-  return TableMaker(leaves, builder, joins_termination).make(rules);
+                                           Termination termination) {
+  return TableMaker(leaves, builder, termination).make(rules);
 }
 
 std::uint64_t CompiledMachine::memory_bytes() const {
   const auto bytes = [](const auto& vector) { return vector.capacity() * sizeof(vector[0]); };
   return bytes(leaves) + bytes(leaders) + bytes(rows) + bytes(leads) + bytes(follows) +
-         bytes(rules) + bytes(partners) + bytes(row_terms);
+         bytes(rules) + bytes(partners) + bytes(choices) + bytes(first_choice) + bytes(row_terms);
 }
 
 }  // namespace perentie::semantics

@@ -24,4 +24,9 @@ struct GeneralisedLts {
 /// acceptance a τ to a stable state that offers just that.
 Lts plain_lts(const GeneralisedLts& generalised);
 
+/// Whether every τ of a state, but one to itself, leads to a stable state that has no edge that the
+/// state has not. Such a τ only chooses an acceptance: in T, F and FD the state is one of a
+/// generalised LTS. True of all states that `plain_lts` makes.
+bool only_chooses_acceptances(const Lts& lts, State state);
+
 }  // namespace perentie::lts

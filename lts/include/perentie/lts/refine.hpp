@@ -45,7 +45,9 @@ struct Counterexample {
 
   Kind kind;
   std::vector<Label> trace;      ///< with τ
-  std::vector<S> states;         ///< those passed, the initial one first: one more than the trace
+  /// Those passed, the initial one first: one more than the trace, and, where the last one is that of
+  /// a generalised system, the stable state that it may be.
+  std::vector<S> states;
   Label event = {};              ///< of kind `event`: performed after the trace
   std::vector<Label> offered{};  ///< of kind `acceptance`: what is offered, ascending
   State node = {};               ///< of the specification, after the trace
@@ -268,16 +270,42 @@ class RefinementSearch {
     for (const Edge& edge : edges_) offered_.push_back(edge.label);
     std::ranges::sort(offered_);
     const bool is_stable = offered_.empty() || offered_.front() != tau;
-    if (is_stable) {
+    if (is_generalised(pair.state)) {
+      if (refutes_stable_states(p)) return true;
+    } else if (is_stable) {
       offered_.erase(std::unique(offered_.begin(), offered_.end()), offered_.end());
       if (specification_.accepts(pair.node, offered_)) return false;
       refute(Kind::acceptance, p).offered = offered_;
       return true;
     }
-    if (model_ == SemanticModel::failures) return false;
+    if (is_stable || model_ == SemanticModel::failures) return false;
     const bool is_divergent = diverges(pair.state);
     if (is_divergent) refute(Kind::divergence, p);
     return is_divergent || !goes_on();
+  }
+
+  bool is_generalised(State state) const {
+    if constexpr (GeneralisedSystem<System>) {
+      return system_.is_generalised(states_[state.value]);
+    } else {
+      return false;
+    }
+  }
+
+  // The same for the acceptances of a generalised state.
+  bool refutes_stable_states(std::size_t p) {
+    if constexpr (GeneralisedSystem<System>) {
+      const S state = states_[pairs_[p].state.value];
+      system_.for_each_stable(state, [&](const S& stable, const std::vector<Label>& offered) {
+        if (!is_within_budget()) return false;
+        if (specification_.accepts(pairs_[p].node, offered)) return true;
+        auto& found = refute(Counterexample<S>::Kind::acceptance, p);
+        found.offered = offered;
+        found.states.push_back(stable);
+        return false;
+      });
+    }
+    return result_.counterexample || !goes_on();
   }
 
   Counterexample<S>& refute(typename Counterexample<S>::Kind kind, std::size_t p) {

@@ -35,4 +35,16 @@ concept TransitionSystem = requires(T& system, const typename T::State& state,
   { system.label_names() } -> std::convertible_to<std::shared_ptr<const LabelNames>>;
 };
 
+/// A system with states of a generalised LTS (CSPM reference 4.7.1): what these may refuse is not
+/// said by their transitions but by stable states, each of which offers one acceptance.
+/// `for_each_stable(s, use)` calls `use(stable, offered)` with each of them and the labels that it
+/// offers, ascending, until that returns false.
+template <class T>
+concept GeneralisedSystem = TransitionSystem<T> &&
+    requires(const T& system, const typename T::State& state,
+             bool (*use)(const typename T::State&, const std::vector<Label>&)) {
+  { system.is_generalised(state) } -> std::same_as<bool>;
+  system.for_each_stable(state, use);
+};
+
 }  // namespace perentie::lts

@@ -34,6 +34,8 @@ bool preserves(Builtin compression, Preserved preserved);
 struct CompressedProcess {
   lts::Lts lts;
   std::vector<ProcId> states;  ///< their terms; of the initial one the compression itself
+  /// Whether it was made of a generalised LTS, so that τ may only choose acceptances.
+  bool is_generalised = false;
 };
 
 /// Makes graphs of terms of kind `compression` and `graph_operator`. They stay where they are.

@@ -45,6 +45,9 @@ struct MachineOptions {
   std::size_t min_leaves = 2;
   /// Of machines with at least two leaves.
   LeafCompression leaf_compression = LeafCompression::none;
+  /// Whether states of `normal(..)` and the like are those of a generalised LTS (4.7.1). What they
+  /// may refuse is then said by `for_each_stable` alone. Otherwise they have τ.
+  bool generalises = false;
 };
 
 /// A process that is a leaf, maybe several times.
@@ -56,7 +59,8 @@ struct LeafSize {
 
 /// How a process became a machine, for statistics.
 struct MachineStructure {
-  bool is_compiled = false;  ///< otherwise it is lazy
+  bool is_compiled = false;     ///< otherwise it is lazy
+  bool is_generalised = false;  ///< some leaf is a generalised LTS
   std::size_t formats = 1;   ///< that have several leaves
   /// Of a compiled machine.
   std::vector<LeafSize> leaf_sizes = {};
@@ -112,6 +116,10 @@ struct CompiledMachine {
   std::vector<Follow> follows;  ///< of each row, by port
   std::vector<Rule> rules;
   std::vector<Partner> partners;
+  /// Changes of the leaf's word that lead from a state of a generalised leaf to the stable states
+  /// that it may be, and by row the first of them, with an end. Empty: no leaf is generalised.
+  std::vector<std::uint64_t> choices;
+  std::vector<std::uint32_t> first_choice;
   std::vector<LeafSize> leaf_sizes;
   std::vector<std::uint32_t> leaf_kinds;  ///< by leaf: of `leaf_sizes`
   /// By kind: of a term, the state that it is.
@@ -184,6 +192,52 @@ class MachineSystem {
     return true;
   }
 
+  /// Whether the state of some leaf is one of several stable ones (`lts::GeneralisedSystem`).
+  bool is_generalised(const State& state) const {
+    return !machine_->first_choice.empty() &&
+           std::ranges::any_of(machine_->leaves, [&](const CompiledMachine::Leaf& leaf) {
+             return !choices(leaf, state).empty();
+           });
+  }
+
+  /// Every leaf chooses one of its stable states; those choices are stable together that have no τ
+  /// together.
+  template <class Use>
+  void for_each_stable(const State& state, Use use) const {
+    struct Turn {
+      std::uint32_t word;
+      std::span<const std::uint64_t> changes;
+      std::size_t taken = 0;
+    };
+    std::vector<Turn> turns;
+    State stable = state;
+    for (const CompiledMachine::Leaf& leaf : machine_->leaves) {
+      const auto changes = choices(leaf, state);
+      if (changes.empty()) continue;
+      turns.push_back({leaf.word, changes});
+      stable[leaf.word] ^= changes[0];
+    }
+    Steps steps;
+    std::vector<lts::Label> offered;
+    for (;;) {
+      steps.clear();
+      offered.clear();
+      successors(stable, steps);
+      for (const auto& step : steps) offered.push_back(step.label);
+      std::ranges::sort(offered);
+      offered.erase(std::unique(offered.begin(), offered.end()), offered.end());
+      const bool is_stable = offered.empty() || offered.front() != lts::tau;
+      if (is_stable && !use(stable, offered)) return;
+      const bool is_last = std::ranges::all_of(turns, [&](Turn& turn) {
+        const std::uint64_t old = turn.changes[turn.taken];
+        turn.taken = (turn.taken + 1) % turn.changes.size();
+        stable[turn.word] ^= old ^ turn.changes[turn.taken];
+        return turn.taken == 0;
+      });
+      if (is_last) return;
+    }
+  }
+
   std::uint64_t state_hash(const State& state) const {
     std::uint64_t hash = 0;
     for (const std::uint64_t word : state) hash = base::hash_mix(hash, word);
@@ -193,6 +247,12 @@ class MachineSystem {
   std::uint64_t memory_bytes() const { return machine_->memory_bytes(); }
 
  private:
+  std::span<const std::uint64_t> choices(const CompiledMachine::Leaf& leaf,
+                                         const State& state) const {
+    const std::uint32_t* first = &machine_->first_choice[machine_row(leaf, state)];
+    return std::span(machine_->choices).subspan(first[0], first[1] - first[0]);
+  }
+
   const CompiledMachine::Row* row_of(const CompiledMachine::Partner& partner,
                                      const State& state) const {
     return &machine_->rows[machine_row(machine_->leaves[partner.leaf], state)];

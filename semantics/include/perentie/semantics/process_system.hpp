@@ -37,6 +37,7 @@ class MachineProcess : public MachineSystem<words> {
   std::optional<base::LimitReached> limit() const { return std::nullopt; }
   MachineStructure structure() const {
     return {.is_compiled = true,
+            .is_generalised = !machine_->first_choice.empty(),
             .leaf_sizes = machine_->leaf_sizes,
             .leaf_kinds = machine_->leaf_kinds,
             .rules = machine_->rules.size(),
@@ -45,12 +46,13 @@ class MachineProcess : public MachineSystem<words> {
 
   /// A run of the step rules that the machine takes for this one. States of compressed leaves stand
   /// for several terms, so their terms alone are not always a run. Where leaves lack τ that the
-  /// step rules have, they are all there is to say.
+  /// step rules have, they are all there is to say. A stable state beyond the trace is one that the
+  /// last one may be; the τ by which the step rules come to it are added to the trace.
   std::vector<ProcId> terms_of_run(std::span<const State> states,
-                                   std::span<const lts::Label> trace) const {
+                                   std::vector<lts::Label>& trace) const {
     if (machine_->is_weak) {
       std::vector<ProcId> terms;
-      for (const State& state : states) terms.push_back(term(state));
+      for (std::size_t i = 0; i <= trace.size(); ++i) terms.push_back(term(states[i]));
       return terms;
     }
     base::Diagnostics unheard;  // the machine has computed these steps before
@@ -66,6 +68,17 @@ class MachineProcess : public MachineSystem<words> {
       PERENTIE_CHECK(step != steps.end(), "a machine does what the step rules do not");
       run.push_back(step->target);
     }
+    const bool chooses = states.size() > trace.size() + 1;
+    while (chooses && !is_state(run.back(), states.back())) {
+      steps.clear();
+      terms.successors(run.back(), steps);
+      const auto choice = std::find_if(steps.begin(), steps.end(), [&](const auto& s) {
+        return s.label == lts::tau && is_choice(run.back(), s.target, states.back());
+      });
+      PERENTIE_CHECK(choice != steps.end(), "a machine refuses what the step rules do not");
+      run.push_back(choice->target);
+      trace.push_back(lts::tau);
+    }
     return run;
   }
 
@@ -73,6 +86,17 @@ class MachineProcess : public MachineSystem<words> {
   bool is_state(ProcId term, const State& state) const {
     const auto words_of_term = script_->state(*machine_, term);
     return words_of_term && std::equal(words_of_term->begin(), words_of_term->end(), state.begin());
+  }
+
+  // Whether leaves that differ between two terms are those of a stable state in the second.
+  bool is_choice(ProcId from, ProcId to, const State& stable) const {
+    const auto before = script_->state(*machine_, from);
+    const auto after = script_->state(*machine_, to);
+    if (!before || !after || *before == *after) return false;
+    return std::ranges::all_of(machine_->leaves, [&](const CompiledMachine::Leaf& leaf) {
+      const std::size_t row = machine_row(leaf, *after);
+      return row == machine_row(leaf, *before) || row == machine_row(leaf, stable);
+    });
   }
 
   Script* script_;
@@ -115,7 +139,8 @@ auto with_process_system(Script& script, ProcId process, const lts::ExploreOptio
     MachineCompilation compilation =
         script.machine(process, {.limits = rest(any).limits,
                                  .max_leaf_states = trial.leaf_states,
-                                 .leaf_compression = script.leaf_compression()});
+                                 .leaf_compression = script.leaf_compression(),
+                                 .generalises = true});
     if (compilation.machine) {
       const auto machine = std::make_shared<const CompiledMachine>(std::move(*compilation.machine));
       return with_width(*machine, [&](auto width) {

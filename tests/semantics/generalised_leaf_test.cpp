@@ -1,0 +1,137 @@
+// Compressed leaves as generalised LTSs: they do not multiply states, and say the same.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "perentie/lts/specifications.hpp"
+#include "perentie/semantics/check.hpp"
+#include "perentie/semantics/process_graph.hpp"
+#include "perentie/semantics/process_system.hpp"
+#include "script_support.hpp"
+
+namespace perentie::semantics {
+namespace {
+
+// P(i) stops after an event, or goes on with the next one first.
+const char* const definitions = R"(
+transparent diamond, normal, sbisim
+channel c : {0..4}
+channel a, b, e
+P(i) = c.i -> (P(i) |~| c.(i + 1) -> P(i))
+CHAIN(f) = || i : {0..3} @ [{c.i, c.(i + 1)}] f(P(i))
+A = a -> A |~| a -> STOP
+plain(X) = X
+both(X) = sbisim(diamond(X))
+)";
+
+const char* const meets =
+    "normal(a -> STOP |~| b -> STOP) [|{a, b}|] normal(a -> STOP |~| b -> STOP)";
+
+CheckResult checked(TestScript& script, const std::string& claim) {
+  base::Diagnostics diagnostics;
+  const auto assertion = script.script().assertion("assert " + claim, diagnostics);
+  EXPECT_TRUE(assertion) << base::render_all(diagnostics, script.sources());
+  if (!assertion) return {.outcome = CheckResult::Outcome::error};
+  return check(script.script(), *assertion, {}, diagnostics);
+}
+
+std::uint64_t states_of(const std::string& claim) {
+  TestScript script(definitions);
+  const CheckResult result = checked(script, claim);
+  EXPECT_EQ(result.outcome, CheckResult::Outcome::holds) << claim;
+  return result.counts.states;
+}
+
+// Each component has two states, as in FDR, where τ had given it a third (CSPM reference 4.7.1).
+TEST(GeneralisedLeafTest, ChoicesOfAcceptancesAreNoStates) {
+  for (const std::string model : {"[F]", "[FD]"}) {
+    EXPECT_EQ(states_of("CHAIN(plain) :[deadlock free " + model + "]"), 81U);
+    for (const std::string f : {"normal", "diamond", "both"}) {
+      EXPECT_EQ(states_of("CHAIN(" + f + ") :[deadlock free " + model + "]"), 16U) << f << model;
+    }
+  }
+  for (const std::string model : {"[T=", "[F=", "[FD="}) {
+    EXPECT_EQ(states_of("CHAIN(plain) " + model + " CHAIN(normal)"), 16U) << model;
+  }
+}
+
+TEST(GeneralisedLeafTest, OneLeafAloneIsAMachine) {
+  EXPECT_EQ(states_of("A [FD= normal(A)"), 2U);
+  EXPECT_EQ(states_of("A [FD= sbisim(diamond(A))"), 3U);
+}
+
+// The choices of both sides meet: each alone may go on, together they may be stuck.
+TEST(GeneralisedLeafTest, StableStatesOfTheWholeAreThoseThatMeet) {
+  TestScript script(definitions);
+  const CheckResult stuck = checked(script, std::string(meets) + " :[deadlock free [F]]");
+  ASSERT_EQ(stuck.outcome, CheckResult::Outcome::fails);
+  EXPECT_EQ(stuck.counts.states, 1U);
+  EXPECT_EQ(stuck.witness->offered, std::vector<std::string>{});
+  const CheckResult refuses = checked(script, "(a -> STOP) ||| e -> STOP [F= "
+                                              "normal(a -> STOP |~| e -> STOP) ||| e -> STOP");
+  ASSERT_EQ(refuses.outcome, CheckResult::Outcome::fails);
+}
+
+// A choice that hiding makes unstable says nothing: only the b of the right side is certain.
+TEST(GeneralisedLeafTest, HiddenOffersAreNotStable) {
+  TestScript script(definitions);
+  const std::string hidden = "(normal(a -> e -> STOP |~| e -> STOP) ||| normal(b -> STOP)) \\ {a}";
+  EXPECT_EQ(checked(script, "(e -> STOP) ||| (b -> STOP) [F= " + hidden).outcome,
+            CheckResult::Outcome::holds);
+}
+
+TEST(GeneralisedLeafTest, DivergenceStays) {
+  TestScript script(definitions + std::string("LOOP = a -> LOOP\nD = LOOP \\ {a} |~| b -> STOP\n"));
+  const std::string network = "normal(D) ||| normal(a -> STOP |~| e -> STOP)";
+  EXPECT_EQ(checked(script, network + " :[divergence free]").outcome, CheckResult::Outcome::fails);
+  EXPECT_EQ(checked(script, "(b -> STOP) ||| (a -> STOP |~| e -> STOP) [F= " + network).outcome,
+            CheckResult::Outcome::holds);
+}
+
+// What a generalised state refuses is shown by a state of the step rules, behind τ.
+TEST(GeneralisedLeafTest, CounterexamplesAreRunsOfTheStepRules) {
+  for (const std::string process :
+       {"normal(A) [|{a}|] normal(A)", "normal(A)", "(normal(A) ||| normal(b -> STOP |~| SKIP))",
+        "diamond(A) [|{a}|] sbisim(normal(A |~| b -> A))"}) {
+    SCOPED_TRACE(process);
+    TestScript script(definitions);
+    base::Diagnostics diagnostics;
+    const auto term = script.script().process(process, diagnostics);
+    const auto found = refine_process(script.script(), *term, lts::DeadlockFreedom{},
+                                      lts::SemanticModel::failures, {}, diagnostics);
+    ASSERT_TRUE(found.counterexample);
+    TermSystem terms = script.script().terms(*term, diagnostics);
+    const auto& states = found.counterexample->states;
+    const auto& trace = found.counterexample->trace;
+    ASSERT_EQ(states.size(), trace.size() + 1);
+    EXPECT_EQ(states[0], terms.initial());
+    std::vector<lts::Transition<ProcId>> steps;
+    for (std::size_t i = 0; i < trace.size(); ++i) {
+      steps.clear();
+      terms.successors(states[i], steps);
+      EXPECT_TRUE(std::ranges::any_of(steps, [&](const auto& step) {
+        return step.label == trace[i] && step.target == states[i + 1];
+      }));
+    }
+    steps.clear();
+    terms.successors(states.back(), steps);
+    EXPECT_TRUE(steps.empty());
+  }
+}
+
+// Whoever asks for a graph gets one whose edges say everything.
+TEST(GeneralisedLeafTest, GraphsArePlain) {
+  TestScript script(definitions);
+  base::Diagnostics diagnostics;
+  const auto term = script.script().process(meets, diagnostics);
+  const auto graph = explore_process(script.script(), *term, {}, diagnostics);
+  EXPECT_TRUE(graph.structure.is_generalised);
+  // Two states, and of the first the stable ones of both sides.
+  EXPECT_EQ(graph.lts.state_count(), 6U);
+  EXPECT_EQ(graph.lts.edges(lts::State{0}, lts::tau).size(), 4U);
+  EXPECT_EQ(graph.lts.state_count(), count_process(script.script(), *term, {}, diagnostics).states);
+}
+
+}  // namespace
+}  // namespace perentie::semantics
