@@ -32,11 +32,31 @@ void AcceptanceBuilder::add(std::span<const State> states) {
   for (const State state : states) {
     if (lts_.is_stable(state)) found_.push_back(acceptance(state));
   }
+  add_found();
+}
+
+void AcceptanceBuilder::add(State state, std::span<const State> before) {
+  found_.clear();
+  if (lts_.is_stable(state)) found_.push_back(acceptance(state));
+  for (const State set : before) {
+    const auto of_set = minimal_[set.value];
+    found_.insert(found_.end(), of_set.begin(), of_set.end());
+  }
+  add_found();
+}
+
+void AcceptanceBuilder::add_found() {
   std::ranges::sort(found_);
   found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
   keep_minimal(found_, sets_);
   std::ranges::sort(found_);
   minimal_.add(found_);
+}
+
+Acceptances Acceptances::of_states(std::span<const State> states) && {
+  Runs<AcceptanceId> of_state;
+  for (const State state : states) of_state.add(of(state));
+  return {std::move(sets_), std::move(of_state)};
 }
 
 Acceptances AcceptanceBuilder::finish() && {

@@ -13,7 +13,7 @@ namespace {
 
 /// Merges the nodes that have the same acceptances, divergence and successors. Nodes say the same
 /// iff their minimal acceptances are the same sets, and each set has one number.
-GeneralisedLts reduce(const NormalLts& normal) {
+GeneralisedLts reduce(NormalLts normal) {
   const Acceptances& acceptances = *normal.acceptances;
   const auto nodes = static_cast<std::uint32_t>(normal.lts.state_count());
   std::map<std::pair<bool, std::vector<AcceptanceId>>, std::uint32_t> numbers;
@@ -28,18 +28,10 @@ GeneralisedLts reduce(const NormalLts& normal) {
 
   std::vector<State> member(quotient.lts.state_count());
   for (std::uint32_t n = 0; n < nodes; ++n) member[quotient.block_of[n].value] = State{n};
-  Runs<Label> sets;
-  for (std::uint32_t id = 0; id < acceptances.set_count(); ++id) {
-    sets.add(acceptances.labels(AcceptanceId{id}));
-  }
-  Runs<AcceptanceId> of_state;
   std::vector<bool> divergent;
-  for (const State node : member) {
-    of_state.add(acceptances.of(node));
-    divergent.push_back(normal.divergent[node.value]);
-  }
+  for (const State node : member) divergent.push_back(normal.divergent[node.value]);
   return {std::move(quotient.lts), std::move(divergent),
-          Acceptances(std::move(sets), std::move(of_state))};
+          std::move(*normal.acceptances).of_states(member)};
 }
 
 }  // namespace
@@ -48,10 +40,10 @@ GeneralisedResult normal(const Lts& lts, const base::Limits& limits) {
   const QuotientResult quotient = delay_bisimulation(lts, limits);
   if (const auto* limit = std::get_if<base::LimitReached>(&quotient)) return *limit;
   const Lts& small = std::get<Quotient>(quotient).lts;
-  const Normalisation result = normalise(small, {.limits = limits, .acceptances = true});
+  Normalisation result = normalise(small, {.limits = limits, .acceptances = true});
   if (result.limit) return *result.limit;
   PERENTIE_CHECK(result.complete(), "a normal form without a limit is not complete");
-  return reduce(result.normal);
+  return reduce(std::move(result.normal));
 }
 
 }  // namespace perentie::lts

@@ -61,5 +61,21 @@ TEST(AcceptancesTest, EachSetIsKeptOnce) {
   EXPECT_EQ(acceptances.set_count(), 1U);
 }
 
+TEST(AcceptancesTest, SetsAreUnitedByTheirNumbers) {
+  AcceptanceBuilder builder(example());
+  builder.add(State{1}, {});
+  builder.add(State{4}, std::vector<State>{State{0}});
+  builder.add(State{2}, std::vector<State>{State{0}, State{1}});
+  builder.add(State{0}, std::vector<State>{State{1}, State{2}});
+  const Acceptances all = std::move(builder).finish();
+  EXPECT_EQ(all.of(State{1}).size(), 1U);
+  EXPECT_EQ(all.of(State{2}).size(), 2U);
+  EXPECT_EQ(all.of(State{3}).size(), 2U);
+  const auto some = Acceptances(all).of_states(std::vector<State>{State{3}, State{1}});
+  EXPECT_EQ(some.state_count(), 2U);
+  EXPECT_EQ(some.of(State{0}).size(), 2U);
+  EXPECT_EQ(some.labels(some.of(State{1})[0]).size(), 2U);  // a and b, of state 1
+}
+
 }  // namespace
 }  // namespace perentie::lts

@@ -29,6 +29,9 @@ class Acceptances {
   /// The labels of an acceptance, ascending.
   std::span<const Label> labels(AcceptanceId id) const { return sets_[id.value]; }
 
+  /// Those of some states, which get new numbers in that order.
+  Acceptances of_states(std::span<const State> states) &&;
+
   std::size_t state_count() const { return of_state_.size(); }
   std::size_t set_count() const { return sets_.size(); }
 
@@ -45,12 +48,15 @@ class AcceptanceBuilder {
 
   /// Adds what the next set of states accepts.
   void add(std::span<const State> states);
+  /// The same of a state together with sets that were added before, by their numbers.
+  void add(State state, std::span<const State> before);
   Acceptances finish() &&;
 
   std::uint64_t peak_bytes() const { return sets_.peak_bytes(0) + minimal_.peak_bytes(0); }
 
  private:
   AcceptanceId acceptance(State stable);
+  void add_found();
 
   const Lts& lts_;
   std::vector<AcceptanceId> initials_;  // by state, once asked for
