@@ -16,8 +16,13 @@
 namespace perentie::cli {
 namespace {
 
-// A script is loaded so many times at most, and so many checks run side by side at most.
+// So many checks run side by side at most. If events have no numbers beforehand, a script is loaded
+// so many times at most.
 constexpr std::size_t max_groups = 16;
+// A script that holds more is not kept for the next assertion, nor one that holds this share of the
+// memory.
+constexpr std::uint64_t max_kept_bytes = std::uint64_t{256} << 20U;
+constexpr std::uint64_t max_kept_share = 16;
 
 constexpr base::LimitReached no_memory{base::LimitKind::memory};
 
@@ -80,6 +85,7 @@ std::unique_ptr<CheckRun> CheckRun::load(const std::string& path, Input& input) 
   };
   run->script_ = semantics::Script::load(*root, input.sources, input.diagnostics, options);
   if (run->script_ == nullptr) return nullptr;
+  run->has_numbered_events_ = run->script_->number_events();
   run->assertions_ = semantics::assertions_of(run->script_->tree());
   run->prints_ = semantics::prints_of(run->script_->tree());
   return run;
@@ -97,6 +103,7 @@ std::unique_ptr<CheckRun::Copy> CheckRun::copy() const {
         semantics::Script::load(*root, copy->input.sources, copy->input.diagnostics, options);
   }
   PERENTIE_CHECK(copy->script != nullptr, "a script that was loaded cannot be loaded again");
+  copy->script->number_events();
   return copy;
 }
 
@@ -135,9 +142,43 @@ CheckedAssertion CheckRun::without_memory(std::size_t number) const {
           {}};
 }
 
+// The script for a part of the assertions: the first part has that of the run.
+void CheckRun::take_script(Hand& hand, std::size_t part, const CheckOptions& options) {
+  const auto max_memory = options.limits.max_memory_bytes.value_or(max_kept_bytes * max_kept_share);
+  const std::uint64_t max_bytes = std::min(max_kept_bytes, max_memory / max_kept_share);
+  const bool is_kept =
+      hand.script != nullptr && has_numbered_events_ && hand.script->memory_bytes() <= max_bytes;
+  if (is_kept) return;
+  drop_script(hand);
+  try {
+    if (part != 0) hand.copy = copy();
+    hand.script = part == 0 ? script_.get() : hand.copy->script.get();
+    hand.script->set_leaf_compression(options.leaf_compression);
+    hand.script->show_calls(options.show_calls);
+  } catch (const std::bad_alloc&) {
+    is_starved_ = is_starved_ || part == 0;
+    hand = {};
+  }
+}
+
+void CheckRun::drop_script(Hand& hand) {
+  if (hand.script != nullptr) {
+    const std::lock_guard lock(compressions_mutex_);
+    try {
+      for (std::string& name : hand.script->compressions_given_up()) {
+        compressions_.insert(std::move(name));
+      }
+    } catch (const std::bad_alloc&) {
+      // Then a note on the number of states is missing.
+    }
+  }
+  hand = {};
+}
+
 void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& options,
                      const std::function<bool(CheckedAssertion)>& consume) {
   const std::size_t groups = std::min(numbers.size(), max_groups);
+  const std::size_t parts = has_numbered_events_ ? numbers.size() : groups;
   const std::size_t jobs = std::min(std::max<std::size_t>(options.jobs, 1), groups);
   base::Limits limits = options.limits;
   if (limits.max_memory_bytes && jobs > 0) *limits.max_memory_bytes /= jobs;
@@ -145,25 +186,12 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<std::optional<CheckedAssertion>> results(numbers.size());
-  std::vector<std::vector<std::string>> compressions(groups);
   std::mutex output;  // held while something is shown
-  std::atomic<std::size_t> next_group{0};
+  std::atomic<std::size_t> next_part{0};
   std::atomic<std::size_t> awaited{0};  // the place that is handed over next
   std::atomic<bool> stopped{false};
 
-  const auto check_group = [&](std::size_t group) {
-    const auto part = part_of(numbers, group, groups);
-    std::unique_ptr<Copy> own;
-    semantics::Script* script = nullptr;  // none once memory runs out: it may know things by half
-    try {
-      if (group != 0) own = copy();
-      script = group == 0 ? script_.get() : own->script.get();
-      script->set_leaf_compression(options.leaf_compression);
-      script->show_calls(options.show_calls);
-    } catch (const std::bad_alloc&) {
-      script = nullptr;
-      if (group == 0) is_starved_ = true;
-    }
+  const auto check_part = [&](std::span<const std::size_t> part, Hand& hand) {
     auto place = static_cast<std::size_t>(part.data() - numbers.data());
     for (const std::size_t number : part) {
       if (stopped) return;
@@ -176,23 +204,27 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
         };
       }
       CheckedAssertion checked = without_memory(number);
-      if (script != nullptr) {
+      if (hand.script != nullptr) {
         try {
-          checked = check_one(*script, number, exploration, options);
+          checked = check_one(*hand.script, number, exploration, options);
         } catch (const std::bad_alloc&) {
-          script = nullptr;
-          if (group == 0) is_starved_ = true;
+          is_starved_ = is_starved_ || hand.copy == nullptr;
+          hand = {};
         }
       }
       const std::lock_guard lock(mutex);
       results[place++] = std::move(checked);
       changed.notify_one();
     }
-    if (script != nullptr) compressions[group] = script->compressions_given_up();
   };
 
   const auto work = [&] {
-    for (std::size_t group = next_group++; group < groups; group = next_group++) check_group(group);
+    Hand hand;
+    for (std::size_t part = next_part++; part < parts; part = next_part++) {
+      take_script(hand, part, options);
+      check_part(part_of(numbers, part, parts), hand);
+    }
+    drop_script(hand);
   };
   std::deque<Worker> workers;
   for (std::size_t w = 0; w < jobs; ++w) workers.emplace_back(work);
@@ -210,22 +242,12 @@ void CheckRun::check(std::span<const std::size_t> numbers, const CheckOptions& o
   }
   stopped = true;
   workers.clear();
-  for (const auto& names : compressions) {
-    for (const std::string& name : names) {
-      if (std::ranges::find(compressions_, name) == compressions_.end()) {
-        compressions_.push_back(name);
-      }
-    }
-  }
 }
 
 std::vector<std::string> CheckRun::compressions_given_up() const {
-  std::vector<std::string> names = compressions_;
-  for (const std::string& name : script_->compressions_given_up()) {
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-  }
-  std::ranges::sort(names);
-  return names;
+  std::set<std::string> names = compressions_;
+  for (const std::string& name : script_->compressions_given_up()) names.insert(name);
+  return {names.begin(), names.end()};
 }
 
 ExitCode worse(ExitCode a, ExitCode b) {

@@ -1,15 +1,18 @@
 // CheckRun: the assertions of a script, checked side by side and handed over in their order.
 //
-// The assertions are dealt into groups, and each group has a script of its own, loaded from the
-// same text: how events are numbered depends on what was evaluated before, and which counterexample
-// is found first depends on the numbers. The groups depend on the assertions alone, so the results
-// are the same for any number of workers.
+// Each worker has a script of its own, loaded from the same text, and keeps it from one assertion to
+// the next, with the compressed processes that it has made. Which of several shortest
+// counterexamples is found depends on the numbers of events, so these are given out beforehand. If
+// that cannot be done, the assertions are dealt into groups with a script for each: these depend on
+// the assertions alone, so the results are the same for any number of workers in both cases.
 #pragma once
 
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,9 +73,16 @@ class CheckRun {
     Input input;
     std::unique_ptr<semantics::Script> script;
   };
+  /// What a worker works with.
+  struct Hand {
+    std::unique_ptr<Copy> copy;           // none: `script` is that of the run
+    semantics::Script* script = nullptr;  // none yet, or memory ran out, so it may know things by half
+  };
 
   explicit CheckRun(Input& input) : input_(input) {}
   std::unique_ptr<Copy> copy() const;
+  void take_script(Hand& hand, std::size_t part, const CheckOptions& options);
+  void drop_script(Hand& hand);
   CheckedAssertion check_one(semantics::Script& script, std::size_t number,
                              const lts::ExploreOptions& exploration, const CheckOptions& options);
   CheckedAssertion without_memory(std::size_t number) const;
@@ -83,8 +93,10 @@ class CheckRun {
   std::unique_ptr<semantics::Script> script_;
   std::vector<semantics::ScriptAssertion> assertions_;
   std::vector<semantics::ScriptPrint> prints_;
-  std::vector<std::string> compressions_;
-  bool is_starved_ = false;  // memory ran out; what `script_` knows may be incomplete
+  std::mutex compressions_mutex_;
+  std::set<std::string> compressions_;
+  bool has_numbered_events_ = false;  // then no result depends on what was checked before
+  bool is_starved_ = false;           // memory ran out; what `script_` knows may be incomplete
 };
 
 /// The worst of the outcomes, as an exit code: an error, then a claim that fails, then none known.

@@ -1,6 +1,7 @@
 #include "perentie/semantics/script.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <unordered_map>
 #include <utility>
 
@@ -207,6 +208,17 @@ void Script::set_limits(const base::Limits& limits) {
   impl_->machine->set_limits(limits);
   impl_->compressor->set_limits(limits);
 }
+
+bool Script::number_events() {
+  constexpr std::size_t max_events = 100'000;
+  constexpr std::chrono::seconds max_time{1};
+  impl_->machine->set_limits({.timeout = max_time});
+  const bool all = impl_->machine->number_events(max_events);
+  impl_->machine->set_limits({});
+  return all;
+}
+
+std::size_t Script::memory_bytes() const { return impl_->machine->memory_bytes(); }
 
 void Script::show_calls(bool shown) { impl_->machine->show_calls(shown); }
 

@@ -190,6 +190,16 @@ TEST(CheckTest, AnyNumberOfWorkersGivesTheSame) {
   EXPECT_THAT(one, HasSubstr("\n20. "));
 }
 
+// Both a and b are unexpected; which one is said does not depend on what the script has met before.
+TEST(CheckTest, WhatWasCheckedBeforeDoesNotMatter) {
+  const std::string script =
+      "channel a, b\nassert STOP [T= b -> STOP\nassert STOP [T= (b -> STOP [] a -> STOP)\n";
+  const auto all = nlohmann::json::parse(check(script, {"--format", "json", "-j", "1"}).output);
+  const auto one = nlohmann::json::parse(check(script, {"--format", "json", "-a", "2"}).output);
+  EXPECT_EQ(all["assertions"][1]["counterexample"]["event"], "a");
+  EXPECT_EQ(one["assertions"][0]["counterexample"]["event"], "a");
+}
+
 TEST(CheckTest, CasesForJUnit) {
   std::istringstream text(
       check(std::string(two) + "assert P :[deadlock free [T]]\n", {"--format", "junit"}).output);

@@ -7,6 +7,7 @@
 #include "gen_process.hpp"
 #include "machine_support.hpp"
 #include "perentie/lts/bisimulation.hpp"
+#include "perentie/semantics/compression.hpp"
 #include "perentie/semantics/process_graph.hpp"
 
 namespace perentie::semantics {

@@ -7,6 +7,7 @@
 
 #include "brief.hpp"
 #include "perentie/semantics/diagnostic_codes.hpp"
+#include "sets.hpp"
 
 namespace perentie::semantics {
 namespace {
@@ -62,6 +63,55 @@ std::optional<ValueId> Machine::run_in(Address entry, Word frame, base::Diagnost
   control_.push_back({ControlKind::halt});
   if (!execute()) return std::nullopt;
   return to_value(pop());
+}
+
+bool Machine::number_events(std::size_t max) {
+  base::Diagnostics unheard;  // whoever uses the channel hears it
+  for (const SymbolId channel : resolution_.channels) {
+    for (;;) {
+      try {
+        const auto events = events_of(channel, max);
+        if (!events || events->size() > max) return false;
+        for (const ValueId event : *events) events_.intern(event);
+        max -= events->size();
+        break;
+      } catch (const NeedFields& need) {
+        if (!compute_fields(need.symbol, unheard)) return false;
+      } catch (const EvaluationFailure&) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// Nothing: there are more, or no end of them.
+std::optional<std::vector<ValueId>> Machine::events_of(SymbolId channel, std::size_t max) {
+  std::size_t count = 1;
+  if (data_.has_data(channel)) {
+    for (const ValueId field : data_.fields(channel)) {
+      if (!is_listed(values_, field)) return std::nullopt;
+      count *= cardinality(values_, field);
+      if (count > max) return std::nullopt;
+    }
+  }
+  if (count > max) return std::nullopt;
+  return data_.productions(values_.make_atom(channel));
+}
+
+bool Machine::compute_fields(SymbolId symbol, base::Diagnostics& diagnostics) {
+  diagnostics_ = &diagnostics;
+  limit_.reset();
+  budget_.emplace(limits_);
+  unfolding_origin_.reset();
+  fields_in_progress_.insert(symbol.value);
+  control_.push_back({ControlKind::halt});
+  control_.push_back({ControlKind::fields, symbol.value});
+  pc_ = program_.field_types.at(symbol.value);
+  frame_ = Word();
+  if (!execute()) return false;
+  pop();
+  return true;
 }
 
 std::optional<ProcId> Machine::unfold(ProcId call, base::Diagnostics& diagnostics) {

@@ -6,6 +6,7 @@
 // the values of their pattern variables (`CanonicalScope`), which makes equal calls equal terms.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,6 +44,10 @@ class Machine final : public FunctionNames, public CallUnfolder {
   std::optional<ValueId> run(Address entry, base::Diagnostics& diagnostics);
   /// The body of a named call, evaluated once.
   std::optional<ProcId> unfold(ProcId call, base::Diagnostics& diagnostics) override;
+
+  /// Numbers the events of all channels in order, up to so many, before their first use. False:
+  /// there are more, or a channel's fields are infinite, or cannot be computed within the limits.
+  bool number_events(std::size_t max);
 
   void set_limits(base::Limits limits) { limits_ = limits; }
   /// Whether failures come with the calls that led to them.
@@ -93,6 +98,8 @@ class Machine final : public FunctionNames, public CallUnfolder {
     std::vector<DataModel::Extension> restricted = {};              // of one with a set
   };
   std::optional<ValueId> run_in(Address entry, Word frame, base::Diagnostics& diagnostics);
+  bool compute_fields(SymbolId symbol, base::Diagnostics& diagnostics);
+  std::optional<std::vector<ValueId>> events_of(SymbolId channel, std::size_t max);
   bool execute();  // until the run ends; false: it failed
   void run_instructions();
   void step(Instruction instruction);

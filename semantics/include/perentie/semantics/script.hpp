@@ -72,6 +72,11 @@ class Script {
   /// concerns nothing else (11.13).
   std::optional<std::string> evaluate(const ScriptPrint& print, base::Diagnostics& diagnostics);
 
+  /// Numbers the events of all channels in order of declaration. Otherwise they have numbers in
+  /// order of first use, and which of several shortest counterexamples is found may depend on what
+  /// was computed before. False: some channel has too many events or does not tell them in time.
+  bool number_events();
+
   /// The same of expressions that were read, or are in the script itself.
   std::optional<std::string> evaluate(parser::ExprId expression, base::Diagnostics& diagnostics);
   std::optional<ProcId> process(parser::ExprId expression, base::Diagnostics& diagnostics);
@@ -100,6 +105,9 @@ class Script {
   /// it is set. Those that do not are taken as the identity.
   void set_preserved(Preserved preserved);
   Preserved preserved() const;
+
+  /// What values, terms and events hold. It never gets less.
+  std::size_t memory_bytes() const;
 
   /// The names of all events that were used so far, by label.
   std::shared_ptr<const lts::LabelNames> label_names() const;
