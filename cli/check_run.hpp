@@ -1,7 +1,7 @@
 // CheckRun: the assertions of a script, checked side by side and handed over in their order.
 //
-// Each worker has a script of its own, loaded from the same text, and keeps it from one assertion to
-// the next, with the compressed processes that it has made. Which of several shortest
+// Each worker has a script of its own, loaded from the same text, and keeps it from one assertion
+// to the next, with the compressed processes that it has made. Which of several shortest
 // counterexamples is found depends on the numbers of events, so these are given out beforehand. If
 // that cannot be done, the assertions are dealt into groups with a script for each: these depend on
 // the assertions alone, so the results are the same for any number of workers in both cases.
@@ -75,8 +75,9 @@ class CheckRun {
   };
   /// What a worker works with.
   struct Hand {
-    std::unique_ptr<Copy> copy;           // none: `script` is that of the run
-    semantics::Script* script = nullptr;  // none yet, or memory ran out, so it may know things by half
+    std::unique_ptr<Copy> copy;  // none: `script` is that of the run
+    semantics::Script* script =
+        nullptr;  // none yet, or memory ran out, so it may know things by half
   };
 
   explicit CheckRun(Input& input) : input_(input) {}

@@ -148,8 +148,8 @@ std::optional<CompressedProcess> Compressor::compress(ProcId term, Preserved pre
   if (const auto* reached = std::get_if<base::LimitReached>(&small)) return give_up(*reached);
   limit_.reset();
   CompressedProcess result = with_terms(std::get<lts::Lts>(std::move(small)), term, preserved);
-  result.is_generalised = found.structure.is_generalised || builtin == Builtin::normal ||
-                          builtin == Builtin::diamond;
+  result.is_generalised =
+      found.structure.is_generalised || builtin == Builtin::normal || builtin == Builtin::diamond;
   return result;
 }
 

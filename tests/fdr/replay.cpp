@@ -4,6 +4,7 @@
 #include <set>
 
 #include "perentie/base/diagnostic.hpp"
+#include "perentie/semantics/compression.hpp"
 
 namespace perentie::test {
 namespace {
@@ -18,11 +19,12 @@ using Events = std::vector<std::string>;
 
 const std::string tau(lts::tau_name);
 
-// A process by the names of its events.
+// A process by the names of its events. As in our behaviours, it is the process itself and not what
+// compressions make of it.
 class Process {
  public:
   Process(semantics::Script& script, parser::ExprId expr, const ScriptAssertion& assertion)
-      : terms_(script.terms(script.process(expr, assertion, sink_).value(), sink_)) {}
+      : terms_(uncompressed(script, expr, assertion, sink_)) {}
 
   States initial() const { return {terms_.initial()}; }
 
@@ -77,6 +79,16 @@ class Process {
   }
 
  private:
+  static semantics::TermSystem uncompressed(semantics::Script& script, parser::ExprId expr,
+                                            const ScriptAssertion& assertion,
+                                            base::Diagnostics& sink) {
+    const semantics::Preserved before = script.preserved();
+    script.set_preserved(semantics::Preserved::identity);
+    auto terms = script.terms(script.process(expr, assertion, sink).value(), sink);
+    script.set_preserved(before);
+    return terms;
+  }
+
   std::vector<lts::Transition<ProcId>> steps(ProcId state) {
     std::vector<lts::Transition<ProcId>> steps;
     EXPECT_TRUE(terms_.successors(state, steps));

@@ -68,8 +68,9 @@ TEST(GeneralisedLeafTest, StableStatesOfTheWholeAreThoseThatMeet) {
   ASSERT_EQ(stuck.outcome, CheckResult::Outcome::fails);
   EXPECT_EQ(stuck.counts.states, 1U);
   EXPECT_EQ(stuck.witness->offered, std::vector<std::string>{});
-  const CheckResult refuses = checked(script, "(a -> STOP) ||| e -> STOP [F= "
-                                              "normal(a -> STOP |~| e -> STOP) ||| e -> STOP");
+  const CheckResult refuses = checked(script,
+                                      "(a -> STOP) ||| e -> STOP [F= "
+                                      "normal(a -> STOP |~| e -> STOP) ||| e -> STOP");
   ASSERT_EQ(refuses.outcome, CheckResult::Outcome::fails);
 }
 

@@ -36,10 +36,7 @@ class TableMaker {
  public:
   TableMaker(const std::vector<const LeafGraph*>& leaves, const RuleBuilder& builder,
              Termination termination)
-      : leaves_(leaves),
-        builder_(builder),
-        termination_(termination),
-        plans_(leaves.size()) {}
+      : leaves_(leaves), builder_(builder), termination_(termination), plans_(leaves.size()) {}
 
   std::optional<CompiledMachine> make(const RuleBuilder::Rules& rules) {
     for (const LeafGraph* leaf : leaves_) {

@@ -44,9 +44,9 @@ struct Counterexample {
   enum class Kind : std::uint8_t { event, acceptance, divergence };
 
   Kind kind;
-  std::vector<Label> trace;      ///< with τ
-  /// Those passed, the initial one first: one more than the trace, and, where the last one is that of
-  /// a generalised system, the stable state that it may be.
+  std::vector<Label> trace;  ///< with τ
+  /// Those passed, the initial one first: one more than the trace, and, where the last one is that
+  /// of a generalised system, the stable state that it may be.
   std::vector<S> states;
   Label event = {};              ///< of kind `event`: performed after the trace
   std::vector<Label> offered{};  ///< of kind `acceptance`: what is offered, ascending

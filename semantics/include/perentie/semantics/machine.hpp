@@ -61,7 +61,7 @@ struct LeafSize {
 struct MachineStructure {
   bool is_compiled = false;     ///< otherwise it is lazy
   bool is_generalised = false;  ///< some leaf is a generalised LTS
-  std::size_t formats = 1;   ///< that have several leaves
+  std::size_t formats = 1;      ///< that have several leaves
   /// Of a compiled machine.
   std::vector<LeafSize> leaf_sizes = {};
   std::vector<std::uint32_t> leaf_kinds = {};  ///< by leaf: of `leaf_sizes`
