@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <string>
 
 #include "gen_process.hpp"
 #include "machine_support.hpp"
 #include "perentie/lts/bisimulation.hpp"
+#include "perentie/lts/divergence.hpp"
 #include "perentie/semantics/compression.hpp"
 #include "perentie/semantics/process_graph.hpp"
 
@@ -46,6 +49,34 @@ RC_GTEST_PROP(MachinePropertyTest, CompressedLeavesKeepBehaviour, ()) {
   RC_ASSERT(small.lts.state_count() <= exact->state_count());
   RC_ASSERT(
       isomorphic(lts::strong_bisimulation(small.lts).lts, lts::strong_bisimulation(*exact).lts));
+}
+
+RC_GTEST_PROP(MachinePropertyTest, WhatMayNotDivergeDoesNot, ()) {
+  const std::string definitions = test::some_definitions();
+  std::string process = test::some_process(2);
+  if (test::pick(2) == 0) process += " \\ {" + test::some_event() + ", " + test::some_event() + "}";
+  RC_LOG() << definitions << process;
+  TestScript script(definitions);
+  RC_ASSERT(script.loaded());
+  const base::Limits limits{.max_states = 1'000};
+  const auto exact = script.explore(process, limits);
+  if (!exact) RC_DISCARD("too large");
+  base::Diagnostics diagnostics;
+  const auto term = script.script().process(process, diagnostics);
+  RC_ASSERT(term);
+  const bool generalises = test::pick(2) == 0;
+  const auto compilation = script.script().machine(
+      *term,
+      {.max_leaf_states = 1'000,
+       .min_leaves = 1,
+       .leaf_compression = test::pick(2) == 0 ? LeafCompression::none : LeafCompression::wbisim,
+       .generalises = generalises});
+  if (!compilation.machine) return;
+  const bool diverges = std::ranges::any_of(lts::divergent_states(*exact), std::identity());
+  RC_CLASSIFY(diverges, "diverges");
+  RC_CLASSIFY(!compilation.machine->may_diverge, "cannot diverge");
+  RC_CLASSIFY(!compilation.machine->may_diverge && lts::has_tau(*exact), "cannot diverge, has tau");
+  RC_ASSERT(compilation.machine->may_diverge || !diverges);
 }
 
 // Parallels anywhere: under operators that switch, after prefixes, under names.

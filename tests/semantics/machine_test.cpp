@@ -145,6 +145,26 @@ TEST(MachineTest, TimeAndCancellationEndCompilation) {
   EXPECT_EQ(compilation.limit->kind, base::LimitKind::cancelled);
 }
 
+// P without b comes to an end of a; the other P goes round with both hidden.
+TEST(MachineTest, LeavesTellThatTheWholeDoesNotDiverge) {
+  const auto may_diverge = [](const std::string& process) {
+    TestScript script(definitions);
+    base::Diagnostics unheard;
+    const auto term = script.script().process(process, unheard);
+    const auto compilation = script.script().machine(*term, {.min_leaves = 1});
+    EXPECT_TRUE(compilation.machine) << process;
+    return !compilation.machine || compilation.machine->may_diverge;
+  };
+  EXPECT_FALSE(may_diverge("P ||| Q"));
+  EXPECT_FALSE(may_diverge("(P ||| P) \\ {a}"));
+  EXPECT_TRUE(may_diverge("(P ||| P) \\ {a, b}"));
+  EXPECT_TRUE(may_diverge("(P ||| DIV) \\ {a}"));
+  EXPECT_TRUE(may_diverge("(R ||| P) \\ {b}")) << "R repeats τ and b";
+  // Each side alone has a cycle of a and c, but together one of a only that the second ends.
+  EXPECT_FALSE(may_diverge("(Q [|{a, c}|] (a -> a -> Q)) \\ {c}"));
+  EXPECT_FALSE(may_diverge("((P [|{a, b}|] P) [|{a}|] a -> a -> STOP) \\ {a, b}"));
+}
+
 lts::Count count_of(TestScript& script, const std::string& process) {
   base::Diagnostics unheard;
   const auto term = script.script().process(process, unheard);

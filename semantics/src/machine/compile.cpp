@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "machine/leaf.hpp"
+#include "machine/livelock.hpp"
 #include "machine/rules.hpp"
 #include "machine/tables.hpp"
 
@@ -49,6 +50,7 @@ class Compiler {
     for (const ProcId term : leaf_terms_) leaves.push_back(&leaf_graphs_.at(term.value));
     auto machine = make_tables(leaves, builder_, *rules, termination_);
     if (!machine) return give_up();
+    machine->may_diverge = may_diverge(leaves, builder_, *rules);
     machine->root = *root;
     machine->is_weak = compression_ == LeafCompression::wbisim;
     for (const ProcId term : leaf_terms_) machine->leaf_kinds.push_back(leaf_kinds_.at(term.value));

@@ -28,10 +28,11 @@ struct LeafGraph {
   std::vector<bool> generalised;
 
   bool is_generalised() const { return !generalised.empty(); }
-  bool is_generalised_state(std::uint32_t state) const {
-    return is_generalised() && generalised[state];
+  /// Whether an edge of a state only chooses an acceptance.
+  bool is_choice(std::uint32_t state, const lts::Edge& edge) const {
+    return is_generalised() && generalised[state] && edge.label == lts::tau &&
+           edge.target.value != state;
   }
-
   std::uint64_t edge_count() const;
   std::uint32_t state_count() const { return static_cast<std::uint32_t>(states.size()); }
   std::span<const lts::Edge> edges(std::uint32_t state) const { return rows[state]; }

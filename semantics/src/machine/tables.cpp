@@ -181,7 +181,7 @@ class TableMaker {
       const std::uint32_t target =
           edge.label == lts::tick && terminates_ ? omega : edge.target.value;
       const std::uint64_t change = std::uint64_t{state ^ target} << machine_.leaves[l].shift;
-      if (edge.label == lts::tau && target != state && leaves_[l]->is_generalised_state(state)) {
+      if (leaves_[l]->is_choice(state, edge)) {
         machine_.choices.push_back(change);
         continue;
       }

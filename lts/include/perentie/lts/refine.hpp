@@ -78,7 +78,11 @@ class RefinementSearch {
         watch_(options.limits),
         states_(system),
         block_(system, states_, options.limits.workers),
-        ahead_(system, states_, 1) {}
+        ahead_(system, states_, 1) {
+    if constexpr (requires { system.may_diverge(); }) {
+      looks_for_divergence_ = looks_for_divergence_ && system.may_diverge();
+    }
+  }
 
   RefineResult<S> run() && {
     states_.add(system_.initial());
@@ -278,7 +282,7 @@ class RefinementSearch {
       refute(Kind::acceptance, p).offered = offered_;
       return true;
     }
-    if (is_stable || model_ == SemanticModel::failures) return false;
+    if (is_stable || !looks_for_divergence_) return false;
     const bool is_divergent = diverges(pair.state);
     if (is_divergent) refute(Kind::divergence, p);
     return is_divergent || !goes_on();
@@ -422,6 +426,7 @@ class RefinementSearch {
   System& system_;
   const Specification& specification_;
   SemanticModel model_;
+  bool looks_for_divergence_ = model_ == SemanticModel::failures_divergences;
   const ExploreOptions& options_;
   std::uint64_t max_pairs_;
   Watch watch_;

@@ -23,7 +23,8 @@ struct Transition {
 /// to the caller's buffer and returns false if they cannot be computed (the system has reported
 /// why). `state_hash(s)` and `==` identify states. `label_names()` is asked for when exploration is
 /// over, so a system may create labels while it computes successors. A system whose own tables grow
-/// may also have `memory_bytes()`, which then counts towards the limit.
+/// may also have `memory_bytes()`, which then counts towards the limit; one that knows that none of
+/// its states leads to τ for ever may say so by `may_diverge()`.
 template <class T>
 concept TransitionSystem = requires(T& system, const typename T::State& state,
                                     std::vector<Transition<typename T::State>>& out) {

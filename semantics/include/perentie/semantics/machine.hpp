@@ -126,6 +126,7 @@ struct CompiledMachine {
   std::vector<std::unordered_map<std::uint32_t, std::uint32_t>> states_of_terms;
   std::vector<std::uint64_t> initial;  ///< packed
   ProcId root;                         ///< the initial term
+  bool may_diverge = true;             ///< false: no state leads to τ for ever
   bool is_weak = false;                ///< leaves lack τ that their terms have
   std::vector<ProcId> row_terms;       ///< by row; none: terminated
   std::shared_ptr<const lts::LabelNames> label_names;
@@ -191,6 +192,9 @@ class MachineSystem {
     }
     return true;
   }
+
+  /// False: no state leads to τ for ever.
+  bool may_diverge() const { return machine_->may_diverge; }
 
   /// Whether the state of some leaf is one of several stable ones (`lts::GeneralisedSystem`).
   bool is_generalised(const State& state) const {
