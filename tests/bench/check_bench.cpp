@@ -26,6 +26,9 @@ const char* const specifications = R"(
 ANY(A) = |~| x : A @ x -> ANY(A)
 ANY_OR_STOP(A) = STOP |~| ANY_OR_STOP_THEN(A)
 ANY_OR_STOP_THEN(A) = |~| x : A @ x -> ANY_OR_STOP(A)
+channel never, again
+REPEATS = again -> REPEATS
+NEVER_REPEATS = ((never -> REPEATS) [|{never}|] STOP) \ {again}
 TABLE_EVENTS = {| sits, eats, getsup, picks, putsdown |}
 COUNTERS = ||| i : {0..5} @ COUNTER_OF(i, 0)
 channel step : {0..5}.{0..9}
@@ -119,6 +122,11 @@ PERENTIE_CHECK_BENCH(hidden_failures_divergences, "ANY_OR_STOP({|eats|}) [FD= ME
     ->DenseRange(6, 8);
 PERENTIE_CHECK_BENCH(butler_deadlock_free, "WITH_BUTLER({n}) :[deadlock free]", "WITH_BUTLER({n})",
                      true)
+    ->DenseRange(6, 8);
+// As far as the leaves tell, this may diverge, so divergences are looked for.
+PERENTIE_CHECK_BENCH(searched_failures_divergences,
+                     "ANY_OR_STOP({|eats|}) [FD= MEALS({n}) ||| NEVER_REPEATS",
+                     "MEALS({n}) ||| NEVER_REPEATS", true)
     ->DenseRange(6, 8);
 // The specification has many τ: it is compressed before it is normalised.
 PERENTIE_CHECK_BENCH(hidden_specification, "MEALS({n}) [FD= MEALS({n})", "MEALS({n})", true)
