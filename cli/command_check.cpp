@@ -1,5 +1,6 @@
 // perentie check: the assertions of a script, in the order of the file.
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ using Outcome = semantics::CheckResult::Outcome;
 
 struct Options {
   std::string file;
-  std::vector<std::size_t> numbers;
+  std::vector<std::int64_t> numbers;
   std::string format = "text";
   bool explain = false;
   std::size_t jobs = processor_count();
@@ -27,12 +28,13 @@ struct Options {
 // The numbers to check, from 1: all, unless some were chosen.
 std::optional<std::vector<std::size_t>> chosen(const Options& options, std::size_t count,
                                                const Console& console) {
-  std::vector<std::size_t> numbers = options.numbers;
-  if (numbers.empty()) {
+  std::vector<std::size_t> numbers;
+  if (options.numbers.empty()) {
     for (std::size_t n = 1; n <= count; ++n) numbers.push_back(n);
   }
-  for (const std::size_t n : numbers) {
-    if (n >= 1 && n <= count) continue;
+  for (const std::int64_t n : options.numbers) {
+    numbers.push_back(static_cast<std::size_t>(n));
+    if (n >= 1 && numbers.back() <= count) continue;
     console.error(fmt::format("there is no assertion {}: the script has {}", n, count));
     return std::nullopt;
   }

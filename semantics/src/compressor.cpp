@@ -99,6 +99,9 @@ void Compressor::set_limits(const base::Limits& limits) {
   budget_ = base::Budget(limits);
   states_in_vain_ = 0;
   std::erase_if(applied_, [](const auto& entry) { return entry.second.limit.has_value(); });
+  // What was too large may have been so after others in vain; the next check begins anew.
+  std::erase_if(
+      known_, [](const auto& entry) { return !entry.second.is_in_work && !entry.second.process; });
 }
 
 const CompressedProcess* Compressor::compressed(ProcId term, Preserved preserved) {

@@ -44,6 +44,7 @@ struct Script::Impl {
   std::optional<Compressor> compressor;
   LeafCompression leaf_compression = LeafCompression::sbisim;
   Preserved preserved = Preserved::failures_divergences;
+  std::size_t first_call = 0;  // since limits were set
   mutable std::shared_ptr<const lts::LabelNames> known_label_names;
 
   bool prepare(base::Diagnostics& diagnostics);
@@ -207,6 +208,7 @@ std::unique_ptr<Script> Script::load(base::FileId root, base::SourceMap& sources
 void Script::set_limits(const base::Limits& limits) {
   impl_->machine->set_limits(limits);
   impl_->compressor->set_limits(limits);
+  impl_->first_call = impl_->processes.size();
 }
 
 bool Script::number_events() {
@@ -385,7 +387,7 @@ std::optional<Script::CalledDefinition> Script::most_called() const {
   std::unordered_map<std::uint32_t, std::uint32_t> counts;  // by function
   std::uint32_t most = many;
   ProcId call;
-  for (std::uint32_t i = 0; i < impl_->processes.size(); ++i) {
+  for (auto i = static_cast<std::uint32_t>(impl_->first_call); i < impl_->processes.size(); ++i) {
     if (impl_->processes.kind(ProcId{i}) != ProcKind::call) continue;
     const std::uint32_t count = ++counts[impl_->processes.word(ProcId{i}, 0)];
     if (count <= most) continue;

@@ -200,6 +200,16 @@ TEST(CheckTest, WhatWasCheckedBeforeDoesNotMatter) {
   EXPECT_EQ(one["assertions"][0]["counterexample"]["event"], "a");
 }
 
+// Both run out of states; the definition that is named is that of the check itself.
+TEST(CheckTest, GrowthIsThatOfTheCheckItself) {
+  const std::string script =
+      "channel a\nWIDE(n) = if n == 0 then STOP else a -> WIDE(n - 1)\n"
+      "UP(n) = a -> UP(n + 1)\nassert WIDE(5000) :[deadlock free]\nassert UP(0) :[deadlock free]\n";
+  const std::string errors = check(script, {"-j", "1", "--max-states", "3000"}).errors;
+  EXPECT_THAT(errors, HasSubstr("`WIDE` is called"));
+  EXPECT_THAT(errors, HasSubstr("`UP` is called"));
+}
+
 TEST(CheckTest, CasesForJUnit) {
   std::istringstream text(
       check(std::string(two) + "assert P :[deadlock free [T]]\n", {"--format", "junit"}).output);

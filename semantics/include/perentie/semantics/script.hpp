@@ -135,8 +135,8 @@ class Script {
   /// is too large; no result depends on that, the number of states does.
   std::vector<std::string> compressions_given_up() const;
 
-  /// The definition that was called with the most different arguments so far, if they are many: in
-  /// a process without end (CSPM reference 6.1.4) it is the one whose arguments grow.
+  /// The definition that was called with the most new arguments since limits were set, if they are
+  /// many: in a process without end (CSPM reference 6.1.4) it is the one whose arguments grow.
   struct CalledDefinition {
     std::string name;
     base::Span span;
