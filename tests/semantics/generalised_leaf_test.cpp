@@ -128,10 +128,39 @@ TEST(GeneralisedLeafTest, GraphsArePlain) {
   const auto term = script.script().process(meets, diagnostics);
   const auto graph = explore_process(script.script(), *term, {}, diagnostics);
   EXPECT_TRUE(graph.structure.is_generalised);
-  // Two states, and of the first the stable ones of both sides.
-  EXPECT_EQ(graph.lts.state_count(), 6U);
-  EXPECT_EQ(graph.lts.edges(lts::State{0}, lts::tau).size(), 4U);
-  EXPECT_EQ(graph.lts.state_count(), count_process(script.script(), *term, {}, diagnostics).states);
+  // Two states, and of the first a stable one: where both choose alike more is accepted than where
+  // they do not.
+  EXPECT_EQ(graph.lts.state_count(), 3U);
+  EXPECT_EQ(graph.lts.edges(lts::State{0}, lts::tau).size(), 1U);
+  EXPECT_EQ(count_process(script.script(), *term, {}, diagnostics).states, 2U);
+}
+
+// Stable states lead back to states that have not chosen yet: the choices do not multiply here
+// either, nor in compressions of compressions.
+TEST(GeneralisedLeafTest, GraphsDoNotMultiplyChoices) {
+  TestScript script(definitions);
+  base::Diagnostics diagnostics;
+  const auto term = script.script().process("CHAIN(normal)", diagnostics);
+  const auto graph = explore_process(script.script(), *term, {}, diagnostics);
+  EXPECT_EQ(count_process(script.script(), *term, {}, diagnostics).states, 16U);
+  EXPECT_EQ(graph.lts.state_count(), 32U);
+  EXPECT_EQ(states_of("normal(CHAIN(normal)) :[deadlock free]"),
+            states_of("normal(CHAIN(plain)) :[deadlock free]"));
+}
+
+TEST(GeneralisedLeafTest, StableStatesOfGraphsCountAsStates) {
+  TestScript script(definitions);
+  base::Diagnostics diagnostics;
+  const auto term = script.script().process(meets, diagnostics);
+  for (const std::uint64_t most : {1U, 2U}) {
+    const auto cut =
+        explore_process(script.script(), *term, {.limits = {.max_states = most}}, diagnostics);
+    EXPECT_FALSE(cut.complete);
+    ASSERT_TRUE(cut.limit);
+    EXPECT_EQ(cut.limit->kind, base::LimitKind::states);
+  }
+  EXPECT_TRUE(
+      explore_process(script.script(), *term, {.limits = {.max_states = 3}}, diagnostics).complete);
 }
 
 }  // namespace

@@ -14,7 +14,8 @@
 
 namespace perentie::semantics {
 
-/// The size of a process, whatever system it came from.
+/// The size of a process, whatever system it came from. States of a generalised LTS are counted as
+/// such, without the stable states that they may be.
 struct ProcessSize {
   std::uint64_t states = 0;
   std::uint64_t transitions = 0;  ///< as the system made them, repeated ones included
@@ -27,7 +28,8 @@ struct ProcessSize {
 ProcessSize count_process(Script& script, ProcId process, const lts::ExploreOptions& options,
                           base::Diagnostics& diagnostics);
 
-/// A process as a graph, whatever system it came from.
+/// A process as a graph, whatever system it came from. What states of a generalised LTS may refuse
+/// is told by stable states behind τ.
 struct ProcessExploration {
   lts::Lts lts;
   std::function<ProcId(lts::State)> term;  ///< of a state; needs the script
