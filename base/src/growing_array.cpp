@@ -4,12 +4,18 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 
 namespace perentie::base {
 namespace {
 
-// Blocks of at least this many bytes are mapped by themselves.
+// Blocks of at least this many bytes are mapped by themselves. ThreadSanitizer does not see
+// `mremap`: a block that moves to where another thread had one would look like a race.
+#ifdef __SANITIZE_THREAD__
+constexpr std::size_t mapped_bytes = std::numeric_limits<std::size_t>::max();
+#else
 constexpr std::size_t mapped_bytes = std::size_t{4} << 20U;
+#endif
 
 void* map(void* block, std::size_t old_bytes, std::size_t new_bytes) {
   void* mapped = block == nullptr ? mmap(nullptr, new_bytes, PROT_READ | PROT_WRITE,
