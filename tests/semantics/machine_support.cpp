@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "perentie/lts/explore.hpp"
@@ -63,6 +64,35 @@ BothWays explore_both_ways(TestScript& test, const std::string& process, std::si
     return ::testing::AssertionFailure()
            << "the step rules give " << steps.transitions.size() << " transitions, the machine "
            << machine.transitions.size();
+  }
+  return ::testing::AssertionSuccess();
+}
+
+::testing::AssertionResult is_run(Script& script, ProcId process,
+                                  const lts::Counterexample<ProcId>& run) {
+  base::Diagnostics unheard;
+  TermSystem terms = script.terms(process, unheard);
+  if (run.states.size() != run.trace.size() + 1 || run.states[0] != terms.initial()) {
+    return ::testing::AssertionFailure() << "it does not begin with the process";
+  }
+  std::vector<lts::Transition<ProcId>> steps;
+  for (std::size_t i = 0; i < run.trace.size(); ++i) {
+    steps.clear();
+    terms.successors(run.states[i], steps);
+    const bool goes_on = std::ranges::any_of(steps, [&](const auto& step) {
+      return step.label == run.trace[i] && step.target == run.states[i + 1];
+    });
+    if (!goes_on) return ::testing::AssertionFailure() << "step " << i << " is none";
+  }
+  if (run.kind != lts::Counterexample<ProcId>::Kind::acceptance) {
+    return ::testing::AssertionSuccess();
+  }
+  steps.clear();
+  terms.successors(run.states.back(), steps);
+  std::set<lts::Label> offered;
+  for (const auto& step : steps) offered.insert(step.label);
+  if (!std::ranges::equal(offered, run.offered)) {
+    return ::testing::AssertionFailure() << "its last state offers something else";
   }
   return ::testing::AssertionSuccess();
 }

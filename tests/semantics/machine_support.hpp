@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "perentie/lts/refine.hpp"
 #include "perentie/semantics/machine.hpp"
 #include "script_support.hpp"
 
@@ -40,6 +41,11 @@ BothWays explore_both_ways(TestScript& script, const std::string& process,
 
 /// Whether both have the same states, each once, and the same transitions, as often.
 ::testing::AssertionResult same_reached(const Reached& steps, const Reached& machine);
+
+/// Whether a counterexample is a run of the step rules from the first state of a process and, if it
+/// is about an acceptance, ends in a state that offers just that.
+::testing::AssertionResult is_run(Script& script, ProcId process,
+                                  const lts::Counterexample<ProcId>& run);
 
 /// Whether the lazy machine of a process has the states, transitions, order and repetitions of the
 /// step rules, as far as `max_states` of both go. A process without a value is no failure.

@@ -38,9 +38,12 @@ class Compiler {
   MachineCompilation run(ProcId process) {
     const std::optional<ProcId> root = steps_.state(process);
     if (!root) return give_up();
-    if (!is_compiled_operator(parts_.processes.kind(*root)) && !is_graph(*root)) return give_up();
+    // A generalised LTS is a machine of one leaf.
+    const bool is_graph =
+        options_.generalises && is_generalised(*root, parts_.processes, parts_.compressions);
+    if (!is_graph && !is_compiled_operator(parts_.processes.kind(*root))) return give_up();
     find_leaves(*root, 0);
-    if (leaf_terms_.size() < options_.min_leaves && !is_graph(*root)) return give_up();
+    if (!is_graph && leaf_terms_.size() < options_.min_leaves) return give_up();
     for (const ProcId term : leaf_terms_) {
       if (!leaf_graphs_.contains(term.value) && !add_leaf(term)) return give_up();
     }
@@ -65,11 +68,6 @@ class Compiler {
  private:
   MachineCompilation give_up() const {
     return {std::nullopt, budget_.check_time(), has_large_leaves_};
-  }
-
-  // A generalised LTS is a machine of one leaf.
-  bool is_graph(ProcId root) const {
-    return options_.generalises && is_generalised(root, parts_.processes, parts_.compressions);
   }
 
   void find_leaves(ProcId term, std::uint32_t depth) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <map>
 
 #include "machine/event_bits.hpp"
 #include "perentie/lts/strong_components.hpp"
@@ -37,22 +39,22 @@ EventBits on_cycles(const LeafGraph& leaf, const EventBits& events) {
 
 bool may_diverge(const std::vector<const LeafGraph*>& leaves, const RuleBuilder& builder,
                  const RuleBuilder::Rules& rules) {
-  constexpr int max_rounds = 20;  // each looks at all leaves
+  constexpr int max_rounds = 20;  // each looks at all leaves that take part
   std::vector<SyncRule> left;
   std::ranges::copy_if(rules, std::back_inserter(left),
                        [](const SyncRule& rule) { return rule.event == lts::tau; });
   for (int round = 0; round < max_rounds && !left.empty(); ++round) {
-    std::vector<EventBits> events(leaves.size());
+    std::map<std::uint32_t, EventBits> events;  // by leaf
     for (const SyncRule& rule : left) {
       for (const RulePart& part : builder.parts(rule)) events[part.leaf].add(part.event);
     }
-    std::vector<EventBits> cyclic;
-    for (std::size_t l = 0; l < leaves.size(); ++l) {
-      cyclic.push_back(on_cycles(*leaves[l], events[l]));
+    std::map<std::uint32_t, EventBits> cyclic;
+    for (const auto& [leaf, of_rules] : events) {
+      cyclic.emplace(leaf, on_cycles(*leaves[leaf], of_rules));
     }
     const std::size_t crossed_out = std::erase_if(left, [&](const SyncRule& rule) {
       return std::ranges::any_of(builder.parts(rule), [&](const RulePart& part) {
-        return !cyclic[part.leaf].contains(part.event);
+        return !cyclic.at(part.leaf).contains(part.event);
       });
     });
     if (crossed_out == 0) return true;
